@@ -1,0 +1,148 @@
+#include <gtest/gtest.h>
+
+#include "base/arena.h"
+#include "base/file.h"
+#include "base/frame.h"
+#include "base/hash.h"
+#include "base/messages.h"
+#include "base/transform.h"
+
+namespace alhazen {
+namespace {
+
+Vec3 random_vector(Rng& rng) {
+    return {rng.uniform() * 2 - 1, rng.uniform() * 2 - 1, rng.uniform() * 2 - 1};
+}
+
+TEST(Frame, IsOrthonormalAndRightHanded) {
+    Rng rng(1);
+    for (int i = 0; i < 1000; ++i) {
+        Vec3 n = normalize(random_vector(rng));
+        for (Frame f : {Frame::from_z(n), Frame::from_z_and_tangent(n, random_vector(rng))}) {
+            EXPECT_NEAR(dot(f.x, f.y), 0, 1e-5f);
+            EXPECT_NEAR(dot(f.x, f.z), 0, 1e-5f);
+            EXPECT_NEAR(length(f.x), 1, 1e-5f);
+            EXPECT_NEAR(length(cross(f.x, f.y) - n), 0, 1e-5f);
+            Vec3 v = random_vector(rng);
+            EXPECT_NEAR(length(f.to_world(f.to_local(v)) - v), 0, 1e-5f);
+        }
+    }
+}
+
+TEST(Frame, TangentAlongTheNormalStillGivesAFrame) {
+    Frame f = Frame::from_z_and_tangent({0, 0, 1}, {0, 0, 3});
+    EXPECT_NEAR(length(f.x), 1, 1e-6f);
+    EXPECT_NEAR(f.x.z, 0, 1e-6f);
+}
+
+TEST(Transform, InverseUndoesAndNormalsStayPerpendicular) {
+    Transform t(Matrix4::translate({1, 2, 3}) * Matrix4::rotate(40, {1, 2, -1}) * Matrix4::scale({2, 3, -.5}));
+    EXPECT_TRUE(t.swaps_handedness());
+    Rng rng(2);
+    for (int i = 0; i < 100; ++i) {
+        Vec3 p = random_vector(rng), v = random_vector(rng), w = random_vector(rng);
+        EXPECT_NEAR(length(t.inverse_point(t.point(p)) - p), 0, 1e-5f);
+        EXPECT_NEAR(length(t.inverse().point(t.point(p)) - p), 0, 1e-5f);
+        Vec3 n = cross(v, w);
+        EXPECT_NEAR(dot(t.normal(n), t.vector(v)), 0, 1e-4f);
+    }
+}
+
+TEST(Transform, SingularMatrixHasNoInverse) {
+    EXPECT_FALSE(Matrix4::scale({1, 0, 1}).inverse());
+    EXPECT_FALSE(Matrix4::scale({1, std::nan(""), 1}).inverse());
+}
+
+TEST(Transform, LookAtPutsTargetOnZ) {
+    auto m = Matrix4::look_at({1, 2, 3}, {4, -1, 7}, {0, 1, 0});
+    ASSERT_TRUE(m);
+    Vec3d target = Transform(*m).point(Vec3d{4, -1, 7});
+    EXPECT_NEAR(target.x, 0, 1e-12);
+    EXPECT_NEAR(target.y, 0, 1e-12);
+    EXPECT_NEAR(target.z, std::sqrt(34.0), 1e-12);
+    EXPECT_GT(Transform(*m).vector(Vec3d{0, 1, 0}).y, 0);
+    EXPECT_FALSE(Matrix4::look_at({1, 2, 3}, {1, 2, 3}, {0, 1, 0}));
+    EXPECT_FALSE(Matrix4::look_at({0, 0, 0}, {0, 1, 0}, {0, 2, 0}));
+}
+
+TEST(Transform, PointErrorBoundsTheError) {
+    Rng rng(3);
+    Transform t(Matrix4::translate({1e3, -2e4, .5}) * Matrix4::rotate(77, {.3, 1, -1}) *
+                Matrix4::scale({13, .7, 101}));
+    for (int i = 0; i < 1000; ++i) {
+        Vec3 p = random_vector(rng) * 1000.0f;
+        Vec3d exact = t.point(Vec3d(p));
+        Vec3 got = t.point(p), bound = t.point_error(p, {});
+        for (int c = 0; c < 3; ++c) EXPECT_LE(std::abs(got[c] - exact[c]), bound[c] * 1.001);
+    }
+}
+
+TEST(Ray, OffsetOriginLeavesTheSurfaceOnTheRightSide) {
+    Vec3 p{1e6f, 1, 1e-6f}, error{.5f, 1e-6f, 1e-12f}, n = normalize(Vec3{1, 1, 1});
+    Vec3 out = offset_origin(p, error, n, {0, 1, 0});
+    Vec3 in = offset_origin(p, error, n, {0, -1, 0});
+    EXPECT_GT(dot(out - p, n), 0);
+    EXPECT_LT(dot(in - p, n), 0);
+}
+
+TEST(Arena, ReusesItsBlocksAndKeepsAlignment) {
+    Arena arena(256);
+    void* first = arena.allocate(100);
+    arena.allocate(1000);
+    void* aligned = arena.allocate(8, 64);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(aligned) % 64, 0u);
+    arena.reset();
+    EXPECT_EQ(arena.allocate(100), first);
+    auto mark = arena.mark();
+    int* a = arena.make<int>(1);
+    arena.rewind(mark);
+    EXPECT_EQ(arena.make<int>(2), a);
+}
+
+TEST(Messages, NearestNameForgivesTyposAndNothingElse) {
+    std::vector<std::string> names{"diffuse", "dielectric", "conductor"};
+    EXPECT_EQ(nearest_name("difuse", names), "diffuse");
+    EXPECT_EQ(nearest_name("Dielectirc", names), "dielectric");
+    EXPECT_EQ(nearest_name("velvet", names), "");
+    EXPECT_EQ(did_you_mean("velvet", names), "; known: diffuse, dielectric, conductor");
+}
+
+TEST(Messages, StopsAfterTwentyErrors) {
+    Messages messages;
+    for (std::size_t i = 1; i < Messages::max_errors; ++i) messages.add_error({}, "bad");
+    EXPECT_THROW(messages.add_error({}, "one too many"), SceneError);
+}
+
+TEST(Messages, LenientTurnsUnsupportedIntoAWarning) {
+    Messages messages;
+    messages.lenient = true;
+    messages.add_unsupported(Place::of_file("a.pbrt"), "unknown shape \"blob\"", "nothing");
+    EXPECT_EQ(messages.error_count(), 0u);
+    EXPECT_EQ(messages.list()[0].full_text(),
+              "a.pbrt: warning: unknown shape \"blob\"; using nothing instead");
+}
+
+TEST(File, WritesAtomicallyAndReadsBack) {
+    auto folder = std::filesystem::temp_directory_path() / "alhazen-file-test";
+    std::filesystem::create_directories(folder);
+    write_file(folder / "a.txt", "hello");
+    EXPECT_EQ(read_file(folder / "a.txt"), "hello");
+    EXPECT_THROW(read_file(folder), std::runtime_error);
+    EXPECT_THROW(read_file(folder / "none"), std::runtime_error);
+    EXPECT_THROW(write_atomically(folder / "a.txt", [](const auto&) { throw std::runtime_error("no"); }),
+                 std::runtime_error);
+    EXPECT_EQ(read_file(folder / "a.txt"), "hello");
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Rng, BelowIsUnbiased) {
+    Rng rng(4);
+    int counts[7] = {};
+    for (int i = 0; i < 70000; ++i) ++counts[rng.below(7)];
+    double chi2 = 0;
+    for (int c : counts) chi2 += (c - 10000.0) * (c - 10000.0) / 10000.0;
+    EXPECT_LT(chi2, 27.9); // 6 degrees of freedom: false alarm 1e-4
+}
+
+} // namespace
+} // namespace alhazen
