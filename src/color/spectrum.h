@@ -6,8 +6,8 @@
 
 namespace alhazen {
 
-/// Four float lanes in one SIMD register. In spectral mode they are four sampled wavelengths; in RGB mode red,
-/// green, blue and a spare lane that holds the mean of the three. Integrators and BSDFs see lanes only.
+/// Four float lanes in one SIMD register. In spectral mode they are four sampled wavelengths; in RGB mode
+/// red, green, blue and a spare lane that holds the mean of the three. Integrators and BSDFs see lanes only.
 struct Spectrum {
     using Lanes = float __attribute__((vector_size(16)));
     Lanes lanes{};

@@ -1,0 +1,87 @@
+/// Which wavelengths a path carries. Four of them are drawn for each camera sample, a quarter of the density
+/// apart (hero wavelength sampling, Wilkie et al. 2014), where the eye sees most (Pharr et al. 2023,
+/// section 4.5.4).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "base/vec.h"
+#include "color/spectrum.h"
+
+namespace alhazen {
+
+/// The meaning of a Spectrum's lanes, the same for a whole render: four sampled wavelengths, or linear sRGB
+/// red, green, blue and their mean.
+enum class ColorMode : std::uint8_t { spectral, rgb };
+
+/// "spectral" or "rgb"; nullopt for any other name.
+constexpr std::optional<ColorMode> find_color_mode(std::string_view name) {
+    if (name == "spectral") return ColorMode::spectral;
+    if (name == "rgb") return ColorMode::rgb;
+    return std::nullopt;
+}
+
+/// The range of wavelengths in nm, those for which the CIE 1931 observer is tabulated.
+inline constexpr float lambda_min = 360, lambda_max = 830;
+
+/// Density (per nm) of the wavelengths that sample_visible draws; 0 outside lambda_min ... lambda_max.
+inline float visible_wavelength_pdf(float lambda) {
+    if (!(lambda >= lambda_min && lambda <= lambda_max)) return 0;
+    return 0.0039398042f / sqr(std::cosh(0.0072f * (lambda - 538)));
+}
+/// The wavelength in nm below which the fraction u (0 <= u <= 1) of that density lies.
+inline float sample_visible_wavelength(float u) {
+    float lambda = 538 - 138.888889f * std::atanh(0.85691062f - 1.82750197f * u);
+    return std::clamp(lambda, lambda_min, lambda_max);
+}
+
+/// The wavelengths of one path and the density each was drawn with.
+struct Wavelengths {
+    ColorMode mode = ColorMode::rgb;
+    Spectrum lambda{0}; ///< nm; not used in RGB mode
+    Spectrum pdf{1};    ///< per nm; 1 in RGB mode, 0 for terminated lanes
+
+    /// Four partners u + i/4 (mod 1) of the visible density; 0 <= u < 1.
+    static Wavelengths sample_visible(float u) {
+        Wavelengths w{ColorMode::spectral, 0, 0};
+        for (int i = 0; i < 4; ++i) {
+            float partner = u + 0.25f * static_cast<float>(i);
+            if (partner >= 1) partner -= 1;
+            float lambda = sample_visible_wavelength(partner);
+            w.lambda.set(i, lambda);
+            w.pdf.set(i, visible_wavelength_pdf(lambda));
+        }
+        return w;
+    }
+    /// Four partners of the uniform density; 0 <= u < 1.
+    static Wavelengths uniform(float u) {
+        constexpr float range = lambda_max - lambda_min;
+        Wavelengths w{ColorMode::spectral, 0, 1 / range};
+        for (int i = 0; i < 4; ++i) {
+            float partner = u + 0.25f * static_cast<float>(i);
+            if (partner >= 1) partner -= 1;
+            w.lambda.set(i, std::min(lambda_min + range * partner, lambda_max));
+        }
+        return w;
+    }
+    static Wavelengths rgb() { return {}; }
+
+    /// Keeps the first wavelength only, after an event that sends each wavelength another way (dispersion).
+    /// The other lanes count no more at the sensor. Does nothing in RGB mode and when done already.
+    void terminate_secondary() {
+        if (mode == ColorMode::rgb || secondary_terminated()) return;
+        pdf = Spectrum(pdf[0] / 4, 0, 0, 0);
+    }
+    bool secondary_terminated() const {
+        return mode == ColorMode::spectral && pdf[1] == 0 && pdf[2] == 0 && pdf[3] == 0;
+    }
+
+    /// The one number that stands for s where only one can be used (the index that bends the path): the first
+    /// wavelength's, or in RGB mode the mean of the channels.
+    float hero(Spectrum s) const { return mode == ColorMode::rgb ? s[3] : s[0]; }
+};
+
+} // namespace alhazen
