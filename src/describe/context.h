@@ -1,0 +1,39 @@
+/// What nodes are built with: messages, folders, and what other nodes have been built already.
+#pragma once
+
+#include <filesystem>
+
+#include "base/messages.h"
+#include "base/transform.h"
+#include "color/wavelengths.h"
+
+namespace alhazen {
+
+class TextureSet;  // textures/texture_set.h
+class MaterialSet; // materials/material_set.h
+
+/// Passed by reference through the building of a scene. Which of the later members are set is said by the family.
+struct BuildContext {
+    Messages& messages;
+    ColorMode color_mode = ColorMode::spectral;
+    std::filesystem::path base_folder = {};
+    const TextureSet* textures = nullptr;
+    const MaterialSet* materials = nullptr;
+
+    /// Of the node being built: shapes, lights, textures, cameras.
+    Transform world_from_node = {};
+    bool reverse_orientation = false;
+    /// Full film resolution (pixels) and diagonal (metres): cameras.
+    Vec2i film_resolution{1, 1};
+    float film_diagonal = 0.035f;
+    /// Shutter open to close: film sensors (seconds).
+    float exposure_time = 1;
+
+    /// An existing path for a file a scene names: absolute, or relative to base_folder.
+    std::filesystem::path resolve(const std::string& name) const {
+        std::filesystem::path path(name);
+        return path.is_absolute() ? path : base_folder / path;
+    }
+};
+
+} // namespace alhazen

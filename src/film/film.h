@@ -1,0 +1,41 @@
+/// Films: pixels from samples.
+#pragma once
+
+#include <string>
+
+#include "base/bounds.h"
+#include "color/wavelengths.h"
+#include "describe/kind.h"
+#include "image/image.h"
+
+namespace alhazen {
+
+/// A film's parameters and its pixels. A pixel's samples must be added in sample order by one thread at a time;
+/// different pixels may be added to from different threads.
+struct Film {
+    static constexpr std::string_view family_name = "film";
+    virtual ~Film() = default;
+
+    virtual Vec2i resolution() const = 0;
+    /// The part that is rendered: crop window or pixel bounds; inside the full resolution.
+    virtual Rect2i pixels() const = 0;
+    /// Replaces size or crop (from the command line); before start().
+    virtual void set_resolution(Vec2i resolution) = 0;
+    virtual void set_pixels(Rect2i pixels) = 0;
+    virtual std::string filename() const = 0;
+    virtual float diagonal() const = 0; ///< metres
+    virtual bool half_float() const = 0;
+    virtual bool linear_transfer() const = 0; ///< 8-bit files hold linear values
+
+    /// Makes the pixels, all black.
+    virtual void start(ColorMode mode) = 0;
+    /// Adds one sample. L must be finite. weight is the filter's times the camera's.
+    virtual void add(Vec2i pixel, Spectrum L, const Wavelengths& lambda, float weight) = 0;
+    /// What is there so far, as linear RGB: pixels().width() x pixels().height().
+    virtual Image image() const = 0;
+};
+
+/// finish() takes context.exposure_time.
+const KindList<Film>& film_kinds();
+
+} // namespace alhazen

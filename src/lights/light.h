@@ -1,0 +1,72 @@
+/// Lights: where paths end. Point-like and distant lights, environments, and glowing shapes.
+#pragma once
+
+#include <optional>
+
+#include "base/bounds.h"
+#include "base/hit.h"
+#include "color/spectrum_value.h"
+#include "describe/kind.h"
+#include "describe/spectrum_parameter.h"
+
+namespace alhazen {
+
+/// A point that light arrives at. ns is zero where there is no surface.
+struct LightReceiver {
+    Vec3 p;
+    Vec3 ns;
+};
+
+/// Light chosen at a light, arriving at a receiver.
+struct LightSample {
+    Spectrum L;      ///< radiance (delta lights: irradiance perpendicular to wi) arriving if nothing is in the way
+    Vec3 wi;         ///< unit, from the receiver to the light
+    float pdf = 0;   ///< per steradian; 1 for delta lights
+    Vec3 p, p_error; ///< where on the light; for infinitely distant ones, a point beyond the scene
+    Vec3 ng;         ///< normal there; zero when not on a surface
+    float primitive_u = 0, primitive_v = 0;
+};
+
+/// Where a light is and which way it shines: what the light BVH needs (Conty Estevez and Kulla 2018, section 4.1).
+struct LightBounds {
+    Bounds3 bounds;
+    Vec3 axis{0, 0, 1};   ///< unit; middle of the emitting normals
+    float cos_normals = -1; ///< cosine of the normals' half angle around the axis
+    float cos_falloff = 0;  ///< cosine of how far from its normal a point still emits
+    float power = 0;        ///< flux in arbitrary but common units (visible average)
+    bool two_sided = false;
+};
+
+struct Light {
+    static constexpr std::string_view family_name = "light";
+    virtual ~Light() = default;
+
+    /// Once the scene's extent is known: infinite lights need it to give power and points beyond the scene.
+    virtual void prepare(const Bounds3& /*scene*/) {}
+
+    /// Light arriving at the receiver from a point of the light chosen with u; nullopt when none does.
+    virtual std::optional<LightSample> sample(const LightReceiver& at, Vec2 u, const Wavelengths& lambda) const = 0;
+
+    /// Delta lights (points, directions) cannot be met by a ray.
+    virtual bool is_delta() const { return false; }
+    /// Infinite lights surround the scene and are seen by rays that leave it.
+    virtual bool is_infinite() const { return false; }
+
+    /// Area lights: radiance leaving the hit in direction hit.wo.
+    virtual Spectrum emitted(const Hit& /*hit*/, const Wavelengths& /*lambda*/) const { return 0; }
+    /// Area lights: density per steradian with which sample() would choose the hit, met along wi from the receiver.
+    virtual float pdf_hit(const LightReceiver&, const Hit& /*hit*/, Vec3 /*wi*/) const { return 0; }
+    /// Infinite lights: radiance arriving against direction d (unit) and the density of sample() choosing it.
+    virtual Spectrum escaped(Vec3 /*d*/, const Wavelengths& /*lambda*/) const { return 0; }
+    virtual float pdf_escaped(const LightReceiver&, Vec3 /*d*/) const { return 0; }
+
+    /// nullopt for infinite lights.
+    virtual std::optional<LightBounds> bounds() const { return std::nullopt; }
+    /// Flux at the wavelengths, watts; infinite lights: through the scene's bounding disk (after prepare()).
+    virtual Spectrum power(const Wavelengths& lambda) const = 0;
+};
+
+/// Lights that a LightSource directive names; context.world_from_node places them.
+const KindList<Light>& light_kinds();
+
+} // namespace alhazen

@@ -1,0 +1,28 @@
+/// Materials: what the user edits. at() looks every texture up once and returns the BSDF of that point.
+#pragma once
+
+#include "base/arena.h"
+#include "base/hit.h"
+#include "describe/kind.h"
+#include "materials/bsdf.h"
+#include "textures/texture.h"
+
+namespace alhazen {
+
+struct Material {
+    static constexpr std::string_view family_name = "material";
+    virtual ~Material() = default;
+
+    /// The BSDF at the hit, made in the arena; nullptr where the surface is only a border between media, which
+    /// light crosses as if it were not there. A material whose index of refraction varies with the wavelength
+    /// terminates lambda's secondary wavelengths.
+    virtual Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const = 0;
+    /// True when at() always returns nullptr.
+    virtual bool is_interface() const { return false; }
+    /// The material in effect at the hit: itself, or one of those it mixes.
+    virtual const Material* choose(const Hit&) const { return this; }
+};
+
+const KindList<Material>& material_kinds();
+
+} // namespace alhazen

@@ -1,0 +1,30 @@
+/// The materials of a scene: by number as the description lists them, and by name.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "materials/material.h"
+
+namespace alhazen {
+
+class MaterialSet {
+  public:
+    /// Builds every node (context.textures must be set), adding errors to the context. Mixtures may refer to any
+    /// named material, also to later ones, but not to themselves through others. Duplicate names are errors.
+    void build(const std::vector<Node>& nodes, BuildContext& context);
+
+    const Material* at(std::size_t index) const { return list_[index].get(); }
+    /// nullptr when there is none of that name.
+    const Material* find(const std::string& name) const;
+    std::vector<std::string> names() const;
+    std::size_t size() const { return list_.size(); }
+
+  private:
+    std::vector<std::unique_ptr<Material>> list_;
+    std::unordered_map<std::string, std::size_t> by_name_;
+};
+
+} // namespace alhazen
