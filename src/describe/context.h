@@ -6,19 +6,22 @@
 #include "base/messages.h"
 #include "base/transform.h"
 #include "color/wavelengths.h"
+#include "describe/mesh_file.h"
 
 namespace alhazen {
 
 class TextureSet;  // textures/texture_set.h
 class MaterialSet; // materials/material_set.h
 
-/// Passed by reference through the building of a scene. Which of the later members are set is said by the family.
+/// Passed by reference through the building of a scene. Which of the later members are set is said by the
+/// family.
 struct BuildContext {
     Messages& messages;
     ColorMode color_mode = ColorMode::spectral;
     std::filesystem::path base_folder = {};
     const TextureSet* textures = nullptr;
     const MaterialSet* materials = nullptr;
+    const MeshReader* mesh_reader = nullptr; ///< reads mesh files: shapes
 
     /// Of the node being built: shapes, lights, textures, cameras.
     Transform world_from_node = {};
