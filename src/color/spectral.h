@@ -21,8 +21,8 @@ class SpectralCurve {
     /// The same value at every wavelength.
     static SpectralCurve constant(float value);
     /// Through (lambdas[i], values[i]). Throws std::invalid_argument, saying what is wrong, when the counts
-    /// differ or are 0, a number is not finite, a wavelength is not positive, or the wavelengths do not
-    /// increase.
+    /// differ or are less than 2, a number is not finite, a wavelength is not positive, or the wavelengths do
+    /// not increase.
     static SpectralCurve from_samples(std::span<const float> lambdas, std::span<const float> values);
     /// As from_samples for lambda0 value0 lambda1 value1 ..., as the scene language writes them.
     static SpectralCurve from_pairs(std::span<const float> pairs);
@@ -32,8 +32,9 @@ class SpectralCurve {
     static SpectralCurve uniform(float start, float step, std::vector<float> values);
     /// Planck's law scaled so that its maximum over all wavelengths is 1 (as pbrt-v4); kelvin > 0.
     static SpectralCurve blackbody(float kelvin);
-    /// The CIE daylight illuminant of a colour temperature, normalised so that Y = 1; below 4000 K, where
-    /// daylight is not defined, the black body (CIE 15:2004, section 3.1; pbrt-v4 does the same).
+    /// The CIE daylight illuminant of a colour temperature, scaled so that its y_integral is cie_y_integral;
+    /// below 4000 K, where daylight is not defined, the black body (CIE 15:2004, section 3.1; pbrt-v4 does
+    /// the same).
     static SpectralCurve daylight(float kelvin);
 
     float eval(float lambda) const;
@@ -65,6 +66,12 @@ const SpectralCurve& cie_y();
 const SpectralCurve& cie_z();
 /// The sum of cie_y over its samples.
 inline constexpr float cie_y_integral = 106.856895f;
+
+/// x, y and z of the observer at four wavelengths; 0 outside the range.
+struct ObserverSample {
+    Spectrum x, y, z;
+};
+ObserverSample sample_observer(Spectrum lambda);
 
 /// Sums over each whole nm of the curve times cie_x, cie_y, cie_z. Divide by cie_y_integral for the
 /// tristimulus of which the constant 1 has Y = 1.
