@@ -1,0 +1,31 @@
+#include "integrators/direct_light.h"
+
+#include "integrators/weights.h"
+
+namespace alhazen {
+
+float DirectLight::mis_weight() const {
+    return power_heuristic(light_pdf, bsdf_pdf, is_delta);
+}
+
+std::optional<DirectLight> propose_light(const Hit& hit, const Bsdf& bsdf, const Frame& frame, PathContext& path) {
+    LightReceiver at{hit.p, hit.ns};
+    float u = path.samples.next1();
+    Vec2 u2 = path.samples.next2();
+    std::optional<ChosenLight> chosen = path.scene.choose_light(at, u);
+    if (!chosen) return std::nullopt;
+    std::optional<LightSample> light = chosen->light->sample(at, u2, path.lambda);
+    if (!light || !(light->pdf > 0) || light->L.is_black()) return std::nullopt;
+    Scatter scatter = bsdf.eval(frame.to_local(hit.wo), frame.to_local(light->wi));
+    if (scatter.f.is_black()) return std::nullopt;
+
+    DirectLight direct;
+    direct.light_pdf = chosen->probability * light->pdf;
+    direct.bsdf_pdf = scatter.pdf;
+    direct.is_delta = chosen->light->is_delta();
+    direct.value = scatter.f * light->L / direct.light_pdf;
+    direct.shadow_ray = hit.spawn_to(light->p, light->p_error, light->ng);
+    return direct;
+}
+
+} // namespace alhazen

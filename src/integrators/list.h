@@ -1,0 +1,5 @@
+KIND(whitted)
+KIND(path)
+KIND(simplepath)
+KIND(randomwalk)
+KIND(ambientocclusion)

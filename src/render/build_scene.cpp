@@ -1,0 +1,146 @@
+#include "render/build_scene.h"
+
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "base/threads.h"
+#include "lights/area_light.h"
+
+namespace alhazen {
+
+namespace {
+
+class SceneBuilder {
+  public:
+    SceneBuilder(SceneDescription& description, const MaterialSet& materials, BuildContext& context)
+        : description_(description), materials_(materials), context_(context) {}
+
+    std::unique_ptr<Scene> build() {
+        build_lights();
+        for (std::size_t i = 0; i < description_.objects.size(); ++i)
+            index_.emplace(description_.objects[i].name, i);
+        objects_.resize(description_.objects.size());
+        for (std::size_t i = 0; i < objects_.size(); ++i) object(i, 1);
+        std::unique_ptr<Object> root = make_object(description_.world, 0);
+        if (context_.messages.error_count() > 0) return nullptr;
+        objects_.push_back(std::move(root));
+        return std::make_unique<Scene>(std::move(objects_), std::move(lights_));
+    }
+
+  private:
+    void build_lights() {
+        for (const LightNode& node : description_.lights) {
+            context_.world_from_node = placement(node.world_from_light, node.node.place);
+            if (auto light = light_kinds().make(node.node, context_, "")) lights_.push_back(std::move(light));
+        }
+    }
+
+    Transform placement(const Motion& motion, const Place& place) {
+        if (motion.is_animated())
+            context_.messages.add_unsupported(place, "moving shapes, lights and cameras are not supported yet",
+                                              "the place at the start of the motion");
+        if (!motion.start.inverse()) context_.messages.add_error(place, "the transformation here is not invertible");
+        return Transform(motion.start);
+    }
+
+    // The finished object; nullptr with an error added when it cannot be had.
+    const Object* object(std::size_t i, std::size_t depth) {
+        if (objects_[i]) return objects_[i].get();
+        const ObjectNode& node = description_.objects[i];
+        if (depth >= Found::max_depth) {
+            context_.messages.add_error(node.place, fmt::format("object \"{}\" is nested more than {} deep, or contains "
+                                                                "itself",
+                                                                node.name, Found::max_depth));
+            return nullptr;
+        }
+        objects_[i] = make_object(description_.objects[i], depth);
+        return objects_[i].get();
+    }
+
+    std::unique_ptr<Object> make_object(ObjectNode& node, std::size_t depth) {
+        std::vector<PlacedObject> instances;
+        for (const InstanceNode& instance : node.instances) {
+            auto found = index_.find(instance.object);
+            if (found == index_.end()) {
+                std::vector<std::string> names;
+                for (const ObjectNode& o : description_.objects) names.push_back(o.name);
+                context_.messages.add_error(instance.place, fmt::format("unknown object \"{}\"{}", instance.object,
+                                                                        did_you_mean(instance.object, names)));
+                continue;
+            }
+            PlacedObject placed;
+            placed.object = object(found->second, depth + 1);
+            placed.world_from_object = placement(instance.world_from_instance, instance.place);
+            placed.object_from_world = placed.world_from_object.inverse();
+            placed.number = instance_count_++;
+            if (placed.object && !placed.object->bounds().empty()) instances.push_back(placed);
+        }
+        return std::make_unique<Object>(make_shapes(node), std::move(instances));
+    }
+
+    // Shapes load in parallel; messages and lights keep the order of the file.
+    std::vector<PlacedShape> make_shapes(ObjectNode& node) {
+        std::vector<PlacedShape> shapes(node.shapes.size());
+        std::vector<Transform> placements;
+        for (const ShapeNode& s : node.shapes) placements.push_back(placement(s.world_from_object, s.node.place));
+        parallel_for(shapes.size(), 1, [&](std::size_t i) {
+            BuildContext context = context_;
+            context.world_from_node = placements[i];
+            context.reverse_orientation = node.shapes[i].reverse_orientation;
+            shapes[i].shape = shape_kinds().make(node.shapes[i].node, context, "");
+            node.shapes[i].node.parameters = {}; // the arrays have been read; free them
+        });
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            if (!shapes[i].shape) continue;
+            shapes[i].material = material_of(node.shapes[i]);
+            if (node.shapes[i].area_light >= 0) add_area_lights(node, node.shapes[i], shapes[i]);
+        }
+        std::erase_if(shapes, [](const PlacedShape& s) { return !s.shape; });
+        return shapes;
+    }
+
+    const Material* material_of(const ShapeNode& shape) {
+        if (shape.material >= 0) return materials_.at(static_cast<std::size_t>(shape.material));
+        if (shape.material_name.empty()) return materials_.at(materials_.size() - 1); // the default, built last
+        const Material* material = materials_.find(shape.material_name);
+        if (!material)
+            context_.messages.add_error(shape.node.place,
+                                        fmt::format("unknown material \"{}\"{}", shape.material_name,
+                                                    did_you_mean(shape.material_name, materials_.names())));
+        return material;
+    }
+
+    void add_area_lights(const ObjectNode& object, const ShapeNode& node, PlacedShape& placed) {
+        const Node& light_node = description_.area_lights[static_cast<std::size_t>(node.area_light)];
+        if (&object != &description_.world) {
+            context_.messages.add_warning(node.node.place,
+                                          "area lights do not shine in objects that are instanced; this shape is dark");
+            return;
+        }
+        auto pattern = area_light_kinds().make(light_node, context_, "");
+        if (!pattern) return;
+        for (std::uint32_t i = 0; i < placed.shape->primitive_count(); ++i) {
+            auto light = pattern->attach(*placed.shape, i);
+            placed.lights.push_back(light.get());
+            if (light) lights_.push_back(std::move(light));
+        }
+    }
+
+    SceneDescription& description_;
+    const MaterialSet& materials_;
+    BuildContext& context_;
+    std::vector<std::unique_ptr<Light>> lights_;
+    std::vector<std::unique_ptr<Object>> objects_;
+    std::unordered_map<std::string, std::size_t> index_;
+    std::uint32_t instance_count_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<Scene> build_scene(SceneDescription& description, const MaterialSet& materials,
+                                   BuildContext& context) {
+    return SceneBuilder(description, materials, context).build();
+}
+
+} // namespace alhazen

@@ -1,0 +1,174 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
+#include "base/threads.h"
+
+namespace alhazen {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What each thread keeps to itself.
+struct Worker {
+    Arena arena;
+    RayCounts rays;
+    std::uint64_t bad_samples = 0;
+    std::vector<BadSample> bad;
+};
+
+class Renderer {
+  public:
+    Renderer(World& world, const RenderSettings& settings, const RenderWatch& watch)
+        : world_(world), watch_(watch), pixels_(world.film->pixels()), tile_size_(std::max(1, settings.tile_size)),
+          tiles_x_((pixels_.width() + tile_size_ - 1) / tile_size_),
+          tiles_y_((pixels_.height() + tile_size_ - 1) / tile_size_) {
+        centred_ = world.spp == 1 && world.integrator->centres_single_samples();
+    }
+
+    RenderStats run() {
+        world_.film->start(world_.mode);
+        while (done_ < world_.spp) {
+            auto pass_start = Clock::now();
+            run_pass();
+            done_ += pass_;
+            last_pass_ = seconds_since(pass_start);
+            report(0, true);
+            if (watch_.cancel && watch_.cancel->load()) break;
+        }
+        return stats();
+    }
+
+  private:
+    void run_pass() {
+        pass_ = next_pass_size();
+        tiles_done_ = 0;
+        std::size_t count = static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_);
+        parallel_for(count, 1, [&](std::size_t i) {
+            render_tile(static_cast<int>(i % static_cast<std::size_t>(tiles_x_)),
+                        static_cast<int>(i / static_cast<std::size_t>(tiles_x_)));
+            report(++tiles_done_, false);
+        });
+    }
+
+    // Passes of about a second: short enough to stop after, long enough not to wait at their ends. How the samples
+    // are divided into passes does not change the image.
+    int next_pass_size() const {
+        int left = world_.spp - done_;
+        if (done_ == 0) return std::min(left, 1);
+        double per_sample = last_pass_ / pass_;
+        int wanted = per_sample > 0 ? static_cast<int>(std::min(1 / per_sample, 1e6)) : 1;
+        return std::clamp(wanted, 1, std::min(left, 4 * pass_));
+    }
+
+    void render_tile(int tx, int ty) {
+        Worker& worker = workers_.local();
+        Vec2i lo{pixels_.lo.x + tx * tile_size_, pixels_.lo.y + ty * tile_size_};
+        Vec2i hi{std::min(lo.x + tile_size_, pixels_.hi.x), std::min(lo.y + tile_size_, pixels_.hi.y)};
+        for (int y = lo.y; y < hi.y; ++y)
+            for (int x = lo.x; x < hi.x; ++x)
+                for (int s = done_; s < done_ + pass_; ++s) render_sample({x, y}, s, worker);
+    }
+
+    void render_sample(Vec2i pixel, int sample, Worker& worker) {
+        worker.arena.reset();
+        SampleStream stream(*world_.sampler, pixel, static_cast<std::uint32_t>(sample));
+        FilterSample place = world_.filter->sample(stream.pixel2());
+        if (centred_) place = FilterSample{};
+        Wavelengths lambda = Wavelengths::rgb();
+        if (world_.mode == ColorMode::spectral) lambda = Wavelengths::sample_visible(stream.next1());
+        CameraSample at;
+        at.film = {static_cast<float>(pixel.x) + 0.5f + place.offset.x,
+                   static_cast<float>(pixel.y) + 0.5f + place.offset.y};
+        at.time = stream.next1();
+        at.lens = stream.next2();
+
+        Spectrum L = 0;
+        auto camera_ray = world_.camera->ray(at);
+        PathContext path(*world_.scene, stream, lambda, worker.arena, worker.rays);
+        if (camera_ray) {
+            Task<Spectrum> task = world_.integrator->radiance(camera_ray->ray, path);
+            task.start();
+            L = task.result() * camera_ray->weight;
+        }
+        if (L.is_finite())
+            world_.film->add(pixel, L, path.lambda, place.weight);
+        else
+            note_bad_sample(worker, {pixel, sample});
+    }
+
+    static void note_bad_sample(Worker& worker, BadSample bad) {
+        ++worker.bad_samples;
+        if (worker.bad.size() < 1000) worker.bad.push_back(bad);
+    }
+
+    void report(std::size_t tiles, bool pass_is_finished) {
+        if (!watch_.progress) return;
+        std::unique_lock lock(report_mutex_, std::try_to_lock);
+        if (!lock && !pass_is_finished) return; // someone else is at it
+        if (!lock) lock.lock();
+        Progress p;
+        p.samples_done = done_;
+        p.samples_total = world_.spp;
+        double all_tiles = static_cast<double>(tiles_x_) * tiles_y_;
+        double in_pass = pass_is_finished ? 0 : static_cast<double>(tiles) / all_tiles * pass_;
+        p.fraction = (done_ + in_pass) / world_.spp;
+        p.seconds = seconds_since(start_);
+        p.seconds_left = p.fraction > 0 ? p.seconds * (1 - p.fraction) / p.fraction : 0;
+        if (pass_is_finished) {
+            std::uint64_t rays = 0;
+            for (const Worker& w : workers_) rays += w.rays.total();
+            rays_per_second_ = p.seconds > 0 ? static_cast<double>(rays) / p.seconds : 0;
+        }
+        p.rays_per_second = rays_per_second_;
+        watch_.progress(p);
+    }
+
+    RenderStats stats() {
+        RenderStats s;
+        s.seconds = seconds_since(start_);
+        s.samples = done_;
+        s.cancelled = done_ < world_.spp;
+        for (const Worker& w : workers_) {
+            s.rays += w.rays;
+            s.bad_samples += w.bad_samples;
+            s.first_bad_samples.insert(s.first_bad_samples.end(), w.bad.begin(), w.bad.end());
+        }
+        std::sort(s.first_bad_samples.begin(), s.first_bad_samples.end(), [](const BadSample& a, const BadSample& b) {
+            return std::tie(a.pixel.y, a.pixel.x, a.sample) < std::tie(b.pixel.y, b.pixel.x, b.sample);
+        });
+        if (s.first_bad_samples.size() > 10) s.first_bad_samples.resize(10);
+        return s;
+    }
+
+    World& world_;
+    const RenderWatch& watch_;
+    Rect2i pixels_;
+    int tile_size_, tiles_x_, tiles_y_;
+    bool centred_ = false;
+    int done_ = 0, pass_ = 0;
+    double last_pass_ = 0, rays_per_second_ = 0;
+    std::atomic<std::size_t> tiles_done_{0};
+    std::mutex report_mutex_;
+    tbb::enumerable_thread_specific<Worker> workers_;
+    Clock::time_point start_ = Clock::now();
+};
+
+} // namespace
+
+RenderStats render(World& world, const RenderSettings& settings, const RenderWatch& watch) {
+    RenderStats stats;
+    with_threads(settings.threads, [&] { stats = Renderer(world, settings, watch).run(); });
+    return stats;
+}
+
+} // namespace alhazen

@@ -1,0 +1,170 @@
+#include "render/world.h"
+
+#include <fmt/format.h>
+
+#include "base/threads.h"
+#include "formats/ply.h"
+#include "render/build_scene.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The node, with the type the program falls back to when the scene names none.
+Node with_default(Node node, std::string_view type) {
+    if (node.type.empty()) node.type = type;
+    return node;
+}
+
+template <class Family>
+Node replaced_kind(const KindList<Family>& kinds, Node node, const std::string& type, Messages& messages) {
+    const Kind<Family>* kind = kinds.find(type);
+    if (!kind) {
+        messages.add_error({}, fmt::format("unknown {} \"{}\"{}", Family::family_name, type,
+                                           did_you_mean(type, kinds.names())));
+        return node;
+    }
+    KindDoc doc = kind->doc();
+    std::erase_if(node.parameters, [&](const Parameter& p) {
+        return std::none_of(doc.fields.begin(), doc.fields.end(), [&](const FieldDoc& f) { return f.name == p.name; });
+    });
+    node.type = type;
+    return node;
+}
+
+std::unique_ptr<Integrator> make_integrator(const SceneDescription& description, const RenderSettings& settings,
+                                            BuildContext& context) {
+    Node node = with_default(description.integrator, "path");
+    if (!settings.integrator.empty())
+        node = replaced_kind(integrator_kinds(), std::move(node), settings.integrator, context.messages);
+    return integrator_kinds().make(node, context, "path");
+}
+
+std::unique_ptr<Film> make_film(const SceneDescription& description, const RenderSettings& settings,
+                                BuildContext& context) {
+    auto film = film_kinds().make(with_default(description.film, "rgb"), context, "rgb");
+    if (!film) return nullptr;
+    if (settings.size) film->set_resolution(*settings.size);
+    if (settings.crop) {
+        Vec2i full = film->resolution();
+        Rect2i r = *settings.crop;
+        if (r.lo.x < 0 || r.lo.y < 0 || r.hi.x > full.x || r.hi.y > full.y || r.empty())
+            context.messages.add_error({}, fmt::format("--crop {},{},{},{} is empty or outside the film of {} x {} "
+                                                       "pixels",
+                                                       r.lo.x, r.lo.y, r.hi.x, r.hi.y, full.x, full.y));
+        else
+            film->set_pixels(r);
+    }
+    return film;
+}
+
+const CameraNode* find_camera(const SceneDescription& description, const RenderSettings& settings,
+                              Messages& messages) {
+    if (settings.camera.empty()) return description.cameras.empty() ? nullptr : &description.cameras.back();
+    std::vector<std::string> names;
+    for (const CameraNode& camera : description.cameras) {
+        const Parameter* name = camera.node.find("name");
+        auto* text = name ? std::get_if<std::vector<std::string>>(&name->values) : nullptr;
+        if (!text || text->empty()) continue;
+        if (text->front() == settings.camera) return &camera;
+        names.push_back(text->front());
+    }
+    messages.add_error({}, fmt::format("no camera is named \"{}\"{}", settings.camera,
+                                       did_you_mean(settings.camera, names)));
+    return nullptr;
+}
+
+std::unique_ptr<Camera> make_camera(const CameraNode& node, BuildContext& context) {
+    if (node.world_from_camera.is_animated())
+        context.messages.add_unsupported(node.node.place, "moving cameras are not supported yet",
+                                         "the place at the start of the motion");
+    context.world_from_node = Transform(node.world_from_camera.start);
+    return camera_kinds().make(node.node, context, "perspective");
+}
+
+// The shutter's opening time, which sensors need before the film and camera are built.
+float exposure_time(const CameraNode& camera) {
+    auto number = [&](std::string_view name, float otherwise) {
+        const Parameter* p = camera.node.find(name);
+        auto* v = p ? std::get_if<std::vector<float>>(&p->values) : nullptr;
+        return v && v->size() == 1 ? v->front() : otherwise;
+    };
+    return number("shutterclose", 1) - number("shutteropen", 0);
+}
+
+std::uint64_t find_seed(const SceneDescription& description, const RenderSettings& settings) {
+    if (settings.seed) return *settings.seed;
+    auto integer = [](const Parameter* p) -> std::optional<std::uint64_t> {
+        auto* v = p ? std::get_if<std::vector<int>>(&p->values) : nullptr;
+        if (!v || v->empty()) return std::nullopt;
+        return static_cast<std::uint64_t>(v->front());
+    };
+    if (auto seed = integer(description.sampler.find("seed"))) return *seed;
+    for (const Node& option : description.options)
+        if (option.type == "seed" && !option.parameters.empty())
+            if (auto seed = integer(&option.parameters.front())) return *seed;
+    return 0;
+}
+
+void choose_color_mode(World& world, const RenderSettings& settings, Messages& messages) {
+    if (world.integrator && world.integrator->works_in_rgb()) {
+        world.mode = ColorMode::rgb;
+        if (settings.color == ColorMode::spectral)
+            messages.add_warning({}, "this integrator is defined in linear RGB; --color spectral is ignored");
+    } else {
+        world.mode = settings.color.value_or(ColorMode::spectral);
+    }
+}
+
+} // namespace
+
+std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings, Messages& messages) {
+    for (const std::string& text : settings.overrides) apply_override(description, text, messages);
+    messages.throw_if_errors();
+
+    auto world = std::make_unique<World>();
+    static const MeshReader mesh_reader = &read_ply;
+    BuildContext context{messages};
+    context.base_folder = description.base_folder;
+    context.mesh_reader = &mesh_reader;
+
+    world->integrator = make_integrator(description, settings, context);
+    choose_color_mode(*world, settings, messages);
+    context.color_mode = world->mode;
+
+    CameraNode default_camera;
+    default_camera.node.type = "perspective";
+    const CameraNode* camera = find_camera(description, settings, messages);
+    if (!camera) camera = &default_camera;
+    context.exposure_time = exposure_time(*camera);
+    world->film = make_film(description, settings, context);
+    if (world->film) {
+        context.film_resolution = world->film->resolution();
+        context.film_diagonal = world->film->diagonal();
+    }
+    world->camera = make_camera(*camera, context);
+    world->filter = filter_kinds().make(with_default(description.filter, "gaussian"), context, "gaussian");
+    world->sampler = sampler_kinds().make(with_default(description.sampler, "zsobol"), context, "zsobol");
+    if (world->sampler) {
+        int spp = settings.spp.value_or(world->sampler->samples_per_pixel());
+        world->sampler->prepare(context.film_resolution, spp, find_seed(description, settings));
+        // Sequences may come in powers of two, but the picture gets the number of samples that was asked for.
+        world->spp = settings.spp.value_or(world->sampler->samples_per_pixel());
+    }
+
+    Node fallback;
+    fallback.type = "diffuse";
+    description.materials.push_back(fallback);
+    world->textures.build(description.textures, context);
+    context.textures = &world->textures;
+    world->materials.build(description.materials, context);
+    context.materials = &world->materials;
+    for (const TextureNode& medium : description.media)
+        messages.add_unsupported(medium.node.place, "participating media are not supported yet", "vacuum");
+    world->scene = build_scene(description, world->materials, context);
+    messages.throw_if_errors();
+    world->scene->set_light_chooser(world->integrator->light_sampler());
+    return world;
+}
+
+} // namespace alhazen

@@ -1,0 +1,40 @@
+/// From a description to everything a picture needs.
+#pragma once
+
+#include <memory>
+
+#include "cameras/camera.h"
+#include "describe/scene_description.h"
+#include "film/film.h"
+#include "film/filter.h"
+#include "integrators/integrator.h"
+#include "materials/material_set.h"
+#include "render/settings.h"
+#include "samplers/sampler.h"
+#include "scene/scene.h"
+#include "textures/texture_set.h"
+
+namespace alhazen {
+
+/// A scene with the camera, film and so on to render it with.
+struct World {
+    ColorMode mode = ColorMode::spectral;
+    TextureSet textures;
+    MaterialSet materials;
+    std::unique_ptr<Scene> scene;
+    std::unique_ptr<Camera> camera;
+    std::unique_ptr<Film> film;
+    std::unique_ptr<Filter> filter;
+    std::unique_ptr<Sampler> sampler;
+    std::unique_ptr<Integrator> integrator;
+    int spp = 1;
+};
+
+/// Builds the world; throws SceneError with every error found. Warnings stay in messages.
+std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings, Messages& messages);
+
+/// Applies "family.parameter=value", "material.NAME.parameter=value", "light.NUMBER.parameter=value",
+/// "texture.NAME.parameter=value" or "camera.parameter=value" to the description. Errors go to messages.
+void apply_override(SceneDescription& description, const std::string& text, Messages& messages);
+
+} // namespace alhazen

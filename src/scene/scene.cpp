@@ -1,0 +1,46 @@
+#include "scene/scene.h"
+
+namespace alhazen {
+
+Scene::Scene(std::vector<std::unique_ptr<Object>> objects, std::vector<std::unique_ptr<Light>> lights)
+    : owned_lights_(std::move(lights)), objects_(std::move(objects)), root_(objects_.back().get()),
+      bounds_(root_->bounds()) {
+    for (const auto& light : owned_lights_) {
+        light->prepare(bounds_);
+        lights_.push_back(light.get());
+        if (light->is_infinite() && !light->is_delta()) infinite_.push_back(light.get());
+    }
+    set_light_chooser("bvh");
+}
+
+void Scene::set_light_chooser(std::string_view name) {
+    chooser_ = make_light_chooser(name, lights_);
+}
+
+std::optional<Hit> Scene::closest(const Ray& ray) const {
+    Found found;
+    root_->closest(ray, found);
+    if (!found.object) return std::nullopt;
+    return Object::surface(found);
+}
+
+bool Scene::visible(const Ray& ray) const {
+    return !root_->any(ray);
+}
+
+SceneCounts Scene::counts() const {
+    SceneCounts counts;
+    counts.objects = objects_.size() - 1;
+    for (const auto& object : objects_) {
+        counts.shapes += object->shapes().size();
+        counts.instances += object->instances().size();
+        counts.accel_bytes += object->bvh().memory_bytes();
+        for (const PlacedShape& placed : object->shapes()) {
+            counts.primitives += placed.shape->primitive_count();
+            if (placed.shape->triangles()) counts.triangles += placed.shape->primitive_count();
+        }
+    }
+    return counts;
+}
+
+} // namespace alhazen

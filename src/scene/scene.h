@@ -1,0 +1,57 @@
+/// The finished, immutable scene: what a ray meets, whether a point sees another, which light to sample.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/hit.h"
+#include "lights/light_chooser.h"
+#include "materials/material.h"
+#include "scene/object.h"
+
+namespace alhazen {
+
+/// What is in a scene, counted.
+struct SceneCounts {
+    std::size_t shapes = 0, primitives = 0, triangles = 0, instances = 0, objects = 0;
+    std::size_t accel_bytes = 0;
+};
+
+class Scene {
+  public:
+    /// root is the last object of the list; it holds what is in the scene itself. Lights must outlive the scene's
+    /// parts that refer to them, so the scene owns both.
+    Scene(std::vector<std::unique_ptr<Object>> objects, std::vector<std::unique_ptr<Light>> lights);
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    /// The nearest hit at 0 < t < ray.tmax. Alpha cutouts are seen through.
+    std::optional<Hit> closest(const Ray& ray) const;
+    /// True when nothing stands at 0 < t < ray.tmax. Alpha cutouts and surfaces that are only borders between
+    /// media do not count.
+    bool visible(const Ray& ray) const;
+
+    std::span<const Light* const> lights() const { return lights_; }
+    std::span<const Light* const> infinite_lights() const { return infinite_; }
+    /// Must be called before choose_light: name is one of light_chooser_names().
+    void set_light_chooser(std::string_view name);
+    std::optional<ChosenLight> choose_light(const LightReceiver& at, float u) const { return chooser_->choose(at, u); }
+    float light_probability(const LightReceiver& at, const Light* light) const {
+        return chooser_->probability(at, light);
+    }
+
+    const Bounds3& bounds() const { return bounds_; }
+    SceneCounts counts() const;
+
+  private:
+    std::vector<std::unique_ptr<Light>> owned_lights_;
+    std::vector<std::unique_ptr<Object>> objects_;
+    const Object* root_;
+    std::vector<const Light*> lights_, infinite_;
+    std::unique_ptr<LightChooser> chooser_;
+    Bounds3 bounds_;
+};
+
+} // namespace alhazen
