@@ -1,6 +1,6 @@
 % Colour and signature (see trace_rays) of every pixel: along x first, from the top down.
 function [color, signature] = render(scene)
-  block = 16384;   % rays at a time: few enough that their arrays stay in the cache
+  block = 65536;   % rays at a time, which bounds the memory
   [origin, direction] = camera_rays(scene);
   count = rows(direction);
   color = zeros(count, 3);
