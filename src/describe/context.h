@@ -11,6 +11,7 @@
 namespace alhazen {
 
 class TextureSet;  // textures/texture_set.h
+struct TextureUse; // textures/texture_set.h
 class MaterialSet; // materials/material_set.h
 
 /// Passed by reference through the building of a scene. Which of the later members are set is said by the
@@ -21,6 +22,8 @@ struct BuildContext {
     std::filesystem::path base_folder = {};
     const TextureSet* textures = nullptr;
     const MaterialSet* materials = nullptr;
+    /// Of the texture being built: what its colours mean, and the images read so far. Set by TextureSet.
+    const TextureUse* texture_use = nullptr;
     const MeshReader* mesh_reader = nullptr; ///< reads mesh files: shapes
 
     /// Of the node being built: shapes, lights, textures, cameras.

@@ -1,5 +1,6 @@
-/// Textures: values that vary over surfaces. Materials, shapes and lights hold FloatTexture and SpectrumTexture
-/// members; a plain number or colour in the scene is a texture that does not vary, and costs no virtual call.
+/// Textures: values that vary over surfaces. Materials, shapes and lights hold FloatTexture and
+/// SpectrumTexture members; a plain number or colour in the scene is a texture that does not vary, and costs
+/// no virtual call.
 #pragma once
 
 #include <memory>
@@ -87,12 +88,15 @@ using UnboundedTexture = RoleTexture<SpectrumRole::unbounded>;
 using IlluminantTexture = RoleTexture<SpectrumRole::illuminant>;
 
 void read_float_texture(FloatTexture& out, const Parameter& p, BuildContext& context);
-void read_spectrum_texture(SpectrumTexture& out, const Parameter& p, SpectrumRole role, BuildContext& context);
+void read_spectrum_texture(SpectrumTexture& out, const Parameter& p, SpectrumRole role,
+                           BuildContext& context);
 
 template <>
 struct FieldType<FloatTexture> {
     static std::string type_text() { return "float | texture"; }
-    static std::string default_text(const FloatTexture& v) { return number_text(static_cast<double>(v.constant())); }
+    static std::string default_text(const FloatTexture& v) {
+        return number_text(static_cast<double>(v.constant()));
+    }
     static void read(FloatTexture& out, const Parameter& p, BuildContext& context) {
         read_float_texture(out, p, context);
     }

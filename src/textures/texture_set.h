@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <string>
-#include <unordered_map>
+#include <vector>
 
 #include "textures/texture.h"
 
@@ -12,26 +12,49 @@ namespace alhazen {
 const KindList<FloatNode>& float_texture_kinds();
 const KindList<SpectrumNode>& spectrum_texture_kinds();
 
-/// Textures by name. A spectrum texture is built once for each role it is used in, when it is first used, since
-/// its rgb values mean different spectra in each.
+class ImageCache; // textures/image_cache.h
+
+/// What a texture is being built for: BuildContext::texture_use while TextureSet builds.
+struct TextureUse {
+    /// What the rgb values of a spectrum texture mean.
+    SpectrumRole role = SpectrumRole::unbounded;
+    /// Images and tables that textures share.
+    ImageCache* images = nullptr;
+    /// The node is wanted for its errors only; it need not make tables.
+    bool is_check = false;
+};
+
+/// Textures by name. Every spectrum texture is checked when the set is built, but made for a role only when
+/// it is first asked for in that role, since its rgb values mean different spectra in each and images take
+/// room. find_* may be called from several threads.
 class TextureSet {
   public:
-    /// Builds every node, adding errors to the context; later textures may refer to earlier ones. Duplicate names
-    /// of one kind are errors.
-    void build(const std::vector<TextureNode>& nodes, BuildContext& context);
+    TextureSet();
+    ~TextureSet();
+    TextureSet(TextureSet&&) noexcept;
+    TextureSet& operator=(TextureSet&&) noexcept;
 
-    /// nullptr when there is none of that name.
+    /// Builds every node, adding errors to the context; later textures may refer to earlier ones. Duplicate
+    /// names of one kind are errors. Sets context.textures to this set.
+    void build(const std::vector<TextureNode>& nodes, BuildContext& context);
+    /// Frees images that only further roles would need; to be called when the scene is complete.
+    void forget_images();
+
+    /// nullptr when there is none of that name, or it had errors.
     std::shared_ptr<const FloatNode> find_float(const std::string& name) const;
-    std::shared_ptr<const SpectrumNode> find_spectrum(const std::string& name, SpectrumRole role) const;
+    /// The same; errors of this role (a reflectance above 1) are added to messages, if given.
+    std::shared_ptr<const SpectrumNode> find_spectrum(const std::string& name, SpectrumRole role,
+                                                      Messages* messages = nullptr) const;
+    /// Whether a node of that name was given, even one with errors.
+    bool has_float(const std::string& name) const;
+    bool has_spectrum(const std::string& name) const;
+    /// Sorted.
     std::vector<std::string> float_names() const;
     std::vector<std::string> spectrum_names() const;
 
   private:
-    struct SpectrumRoles {
-        std::shared_ptr<const SpectrumNode> by_role[3];
-    };
-    std::unordered_map<std::string, std::shared_ptr<const FloatNode>> floats_;
-    std::unordered_map<std::string, SpectrumRoles> spectra_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 } // namespace alhazen

@@ -1,0 +1,133 @@
+/// Pictures on surfaces. The texture coordinates' origin is the picture's lower left corner, as in pbrt-v4.
+/// Lookups read the finest level whatever the filter: rays do not carry footprints.
+#include <fmt/format.h>
+
+#include "image/encoding.h"
+#include "textures/image_cache.h"
+#include "textures/mapping.h"
+#include "textures/texture_node.h"
+
+namespace alhazen {
+
+template <>
+struct EnumNames<WrapMode> {
+    static constexpr std::array names{"repeat", "clamp", "black", "octahedralsphere"};
+};
+template <>
+struct EnumNames<TexelFilter> {
+    static constexpr std::array names{"point", "bilinear", "trilinear", "ewa"};
+};
+
+namespace {
+
+// The picture's parameters, the same for both families.
+struct ImageMapFields : TextureMapping {
+    std::string filename;
+    WrapMode wrap = WrapMode::repeat;
+    TexelFilter filter = TexelFilter::bilinear;
+    float maxanisotropy = 8;
+    std::string encoding = "auto";
+    float scale = 1;
+    bool invert = false;
+
+    template <class T>
+    static void describe_image(Fields<T>& f) {
+        f.about("A picture from an image file: EXR, PNG, JPEG, HDR, TGA, BMP or PFM.");
+        f.field("filename", &T::filename, "the image file, relative to the scene file").required();
+        f.field("wrap", &T::wrap, "what lies beyond the picture's borders");
+        f.field("filter", &T::filter,
+                "how texels are blended; trilinear and ewa are bilinear on the finest level for now");
+        f.field("maxanisotropy", &T::maxanisotropy, "ewa: greatest ratio of the footprint's axes").above(0);
+        f.field(
+            "encoding", &T::encoding,
+            "how an integer file's values stand for light: \"sRGB\", \"linear\", \"gamma\" and a number, or "
+            "\"auto\" (sRGB for integer files); float files are linear");
+        f.field("scale", &T::scale, "factor of the file's values");
+        f.field("invert", &T::invert, "1 minus the value, after scaling");
+        T::describe_mapping(f);
+    }
+
+    Vec2 image_point(const TexturePoint& at) const {
+        Vec2 st = map(at);
+        return {st.x, 1 - st.y};
+    }
+
+    // The parameter's place if it was given.
+    static Place place_of(const Node& node, std::string_view parameter) {
+        const Parameter* p = node.find(parameter);
+        return p ? p->place : node.place;
+    }
+
+    // Runs use(source, cache) once everything is known; what it throws is an error of the file.
+    template <class Use>
+    void read(const Node& node, BuildContext& context, Use use) {
+        place(context);
+        auto parsed = Encoding::parse(encoding);
+        if (!parsed) {
+            context.messages.add_error(
+                place_of(node, "encoding"),
+                fmt::format("encoding \"{}\" is not known; it must be \"auto\", \"sRGB\", "
+                            "\"linear\" or \"gamma\" and a positive number",
+                            encoding));
+            return;
+        }
+        ImageSource source{context.resolve(filename), *parsed, wrap};
+        ImageCache own;
+        bool is_shared = context.texture_use && context.texture_use->images;
+        try {
+            use(source, is_shared ? *context.texture_use->images : own);
+        } catch (const std::exception& e) {
+            context.messages.add_error(place_of(node, "filename"),
+                                       fmt::format("image \"{}\": {}", source.path.string(), e.what()));
+        }
+    }
+};
+
+template <class Family>
+struct ImageMap;
+
+template <>
+struct ImageMap<FloatNode> final : FloatNode, ImageMapFields {
+    std::shared_ptr<const Pyramid<float>> texels;
+
+    static void describe(Fields<ImageMap>& f) { describe_image(f); }
+    void finish(const Node& node, BuildContext& context) {
+        read(node, context,
+             [&](const ImageSource& source, ImageCache& cache) { texels = cache.numbers(source); });
+    }
+    float eval(const TexturePoint& at) const override {
+        Vec2 st = image_point(at);
+        float v = filter == TexelFilter::point ? texels->nearest(0, st) : texels->bilinear(0, st);
+        return invert ? std::max(0.0f, 1 - scale * v) : scale * v;
+    }
+};
+
+template <>
+struct ImageMap<SpectrumNode> final : SpectrumNode, ImageMapFields {
+    std::shared_ptr<const ColorTexels> texels;
+
+    static void describe(Fields<ImageMap>& f) { describe_image(f); }
+    void finish(const Node& node, BuildContext& context) {
+        read(node, context, [&](const ImageSource& source, ImageCache& cache) {
+            TextureUse use = context.texture_use ? *context.texture_use : TextureUse{};
+            if (use.is_check)
+                cache.image(source);
+            else
+                texels = cache.colors(source, {scale, invert}, use.role, context.color_mode);
+        });
+    }
+    Spectrum eval(const TexturePoint& at, const Wavelengths& lambda) const override {
+        return texels->lookup(image_point(at), filter, lambda);
+    }
+};
+
+} // namespace
+
+Kind<FloatNode> imagemap_float_texture() {
+    return make_kind<FloatNode, ImageMap<FloatNode>>("imagemap");
+}
+Kind<SpectrumNode> imagemap_spectrum_texture() {
+    return make_kind<SpectrumNode, ImageMap<SpectrumNode>>("imagemap");
+}
+
+} // namespace alhazen

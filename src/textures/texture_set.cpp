@@ -1,0 +1,138 @@
+#include "textures/texture_set.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "textures/image_cache.h"
+
+namespace alhazen {
+
+struct TextureSet::State {
+    struct SpectrumEntry {
+        TextureNode description;
+        bool is_valid = false; ///< the check found no errors
+        bool is_made[3] = {};
+        std::shared_ptr<const SpectrumNode> by_role[3];
+    };
+
+    std::map<std::string, std::shared_ptr<const FloatNode>> floats;
+    std::map<std::string, SpectrumEntry> spectra;
+    ImageCache images;
+    ColorMode color_mode = ColorMode::spectral;
+    std::filesystem::path base_folder;
+    bool lenient = false;
+    // Making a texture finds the textures it is made of.
+    std::recursive_mutex mutex;
+};
+
+TextureSet::TextureSet() : state_(std::make_unique<State>()) {}
+TextureSet::~TextureSet() = default;
+TextureSet::TextureSet(TextureSet&&) noexcept = default;
+TextureSet& TextureSet::operator=(TextureSet&&) noexcept = default;
+
+namespace {
+
+// What an unknown texture becomes in lenient mode.
+constexpr std::string_view substitute = "constant";
+
+template <class Family>
+std::shared_ptr<const Family> make_node(const KindList<Family>& kinds, const TextureNode& description,
+                                        const TextureUse& use, BuildContext& context) {
+    Transform outer_transform = context.world_from_node;
+    const TextureUse* outer_use = context.texture_use;
+    context.world_from_node = Transform(description.world_from_texture.start);
+    context.texture_use = &use;
+    std::shared_ptr<const Family> node = kinds.make(description.node, context, substitute);
+    context.world_from_node = outer_transform;
+    context.texture_use = outer_use;
+    return node;
+}
+
+} // namespace
+
+void TextureSet::build(const std::vector<TextureNode>& nodes, BuildContext& context) {
+    std::lock_guard lock(state_->mutex);
+    context.textures = this;
+    state_->color_mode = context.color_mode;
+    state_->base_folder = context.base_folder;
+    state_->lenient = context.messages.lenient;
+    for (const TextureNode& description : nodes) {
+        const std::string& name = description.node.name;
+        if (description.is_spectrum ? has_spectrum(name) : has_float(name)) {
+            context.messages.add_error(description.node.place,
+                                       fmt::format("the {} texture \"{}\" is already defined",
+                                                   description.is_spectrum ? "spectrum" : "float", name));
+            continue;
+        }
+        if (description.is_spectrum) {
+            TextureUse check{SpectrumRole::unbounded, &state_->images, true};
+            bool is_valid = make_node(spectrum_texture_kinds(), description, check, context) != nullptr;
+            State::SpectrumEntry& entry = state_->spectra[name];
+            entry.description = description;
+            entry.is_valid = is_valid;
+        } else {
+            TextureUse use{SpectrumRole::unbounded, &state_->images, false};
+            auto node = make_node(float_texture_kinds(), description, use, context);
+            state_->floats[name] = std::move(node);
+        }
+    }
+}
+
+void TextureSet::forget_images() {
+    std::lock_guard lock(state_->mutex);
+    state_->images.clear();
+}
+
+std::shared_ptr<const FloatNode> TextureSet::find_float(const std::string& name) const {
+    std::lock_guard lock(state_->mutex);
+    auto it = state_->floats.find(name);
+    return it == state_->floats.end() ? nullptr : it->second;
+}
+
+std::shared_ptr<const SpectrumNode> TextureSet::find_spectrum(const std::string& name, SpectrumRole role,
+                                                              Messages* messages) const {
+    std::lock_guard lock(state_->mutex);
+    auto it = state_->spectra.find(name);
+    if (it == state_->spectra.end() || !it->second.is_valid) return nullptr;
+    State::SpectrumEntry& entry = it->second;
+    auto index = static_cast<std::size_t>(role);
+    if (!entry.is_made[index]) {
+        // Warnings came with the check; only errors are new.
+        Messages found;
+        found.lenient = state_->lenient;
+        BuildContext context{found, state_->color_mode, state_->base_folder, this};
+        TextureUse use{role, &state_->images, false};
+        entry.by_role[index] = make_node(spectrum_texture_kinds(), entry.description, use, context);
+        entry.is_made[index] = true;
+        for (const Message& m : found.list())
+            if (messages && m.kind == Message::Kind::error) messages->add_error(m.place, m.text);
+    }
+    return entry.by_role[index];
+}
+
+bool TextureSet::has_float(const std::string& name) const {
+    std::lock_guard lock(state_->mutex);
+    return state_->floats.count(name) != 0;
+}
+bool TextureSet::has_spectrum(const std::string& name) const {
+    std::lock_guard lock(state_->mutex);
+    return state_->spectra.count(name) != 0;
+}
+
+std::vector<std::string> TextureSet::float_names() const {
+    std::lock_guard lock(state_->mutex);
+    std::vector<std::string> names;
+    for (const auto& [name, node] : state_->floats) names.push_back(name);
+    return names;
+}
+std::vector<std::string> TextureSet::spectrum_names() const {
+    std::lock_guard lock(state_->mutex);
+    std::vector<std::string> names;
+    for (const auto& [name, entry] : state_->spectra) names.push_back(name);
+    return names;
+}
+
+} // namespace alhazen
