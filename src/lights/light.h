@@ -19,18 +19,19 @@ struct LightReceiver {
 
 /// Light chosen at a light, arriving at a receiver.
 struct LightSample {
-    Spectrum L;      ///< radiance (delta lights: irradiance perpendicular to wi) arriving if nothing is in the way
-    Vec3 wi;         ///< unit, from the receiver to the light
+    Spectrum L; ///< radiance (delta lights: irradiance perpendicular to wi) arriving if nothing is in the way
+    Vec3 wi;    ///< unit, from the receiver to the light
     float pdf = 0;   ///< per steradian; 1 for delta lights
     Vec3 p, p_error; ///< where on the light; for infinitely distant ones, a point beyond the scene
     Vec3 ng;         ///< normal there; zero when not on a surface
     float primitive_u = 0, primitive_v = 0;
 };
 
-/// Where a light is and which way it shines: what the light BVH needs (Conty Estevez and Kulla 2018, section 4.1).
+/// Where a light is and which way it shines: what the light BVH needs (Conty Estevez and Kulla 2018,
+/// section 4.1).
 struct LightBounds {
     Bounds3 bounds;
-    Vec3 axis{0, 0, 1};   ///< unit; middle of the emitting normals
+    Vec3 axis{0, 0, 1};     ///< unit; middle of the emitting normals
     float cos_normals = -1; ///< cosine of the normals' half angle around the axis
     float cos_falloff = 0;  ///< cosine of how far from its normal a point still emits
     float power = 0;        ///< flux in arbitrary but common units (visible average)
@@ -45,7 +46,8 @@ struct Light {
     virtual void prepare(const Bounds3& /*scene*/) {}
 
     /// Light arriving at the receiver from a point of the light chosen with u; nullopt when none does.
-    virtual std::optional<LightSample> sample(const LightReceiver& at, Vec2 u, const Wavelengths& lambda) const = 0;
+    virtual std::optional<LightSample> sample(const LightReceiver& at, Vec2 u,
+                                              const Wavelengths& lambda) const = 0;
 
     /// Delta lights (points, directions) cannot be met by a ray.
     virtual bool is_delta() const { return false; }
@@ -54,7 +56,8 @@ struct Light {
 
     /// Area lights: radiance leaving the hit in direction hit.wo.
     virtual Spectrum emitted(const Hit& /*hit*/, const Wavelengths& /*lambda*/) const { return 0; }
-    /// Area lights: density per steradian with which sample() would choose the hit, met along wi from the receiver.
+    /// Area lights: density per steradian with which sample() would choose the hit, met along wi from the
+    /// receiver.
     virtual float pdf_hit(const LightReceiver&, const Hit& /*hit*/, Vec3 /*wi*/) const { return 0; }
     /// Infinite lights: radiance arriving against direction d (unit) and the density of sample() choosing it.
     virtual Spectrum escaped(Vec3 /*d*/, const Wavelengths& /*lambda*/) const { return 0; }

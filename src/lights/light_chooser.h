@@ -21,8 +21,8 @@ struct LightChooser {
     virtual float probability(const LightReceiver& at, const Light* light) const = 0;
 };
 
-/// name: "uniform", "power" or "bvh" (Conty Estevez and Kulla 2018). The lights must be prepared and outlive the
-/// chooser. nullptr when the name is not one of light_chooser_names().
+/// name: "uniform", "power" or "bvh" (Conty Estevez and Kulla 2018). The lights must be prepared and outlive
+/// the chooser. nullptr when the name is not one of light_chooser_names().
 std::unique_ptr<LightChooser> make_light_chooser(std::string_view name, std::span<const Light* const> lights);
 std::vector<std::string> light_chooser_names();
 

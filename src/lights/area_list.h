@@ -1,0 +1,2 @@
+// Every kind of light that makes a shape glow.
+KIND(diffuse)

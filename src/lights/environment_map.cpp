@@ -1,0 +1,86 @@
+#include "lights/environment_map.h"
+
+#include "image/statistics.h"
+#include "math/equal_area.h"
+
+namespace alhazen {
+
+EnvironmentMap::EnvironmentMap(const Image& image, ColorMode mode)
+    : texels_(image, mode), distribution_(make_distribution(image)) {
+    integrate(image);
+}
+
+// Each texel's weight is the light that arrives from it: mean of its channels times its solid angle.
+PiecewiseConstant2D EnvironmentMap::make_distribution(const Image& image) const {
+    Vec2i size = texels_.size();
+    std::vector<float> weights;
+    weights.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    for (int y = 0; y < size.y; ++y) {
+        float omega = solid_angle(y);
+        for (int x = 0; x < size.x; ++x) {
+            Vec3 rgb = emitted_rgb(image, x, y);
+            weights.push_back((rgb.x + rgb.y + rgb.z) / 3 * omega);
+        }
+    }
+    return PiecewiseConstant2D(weights, size.x, size.y);
+}
+
+void EnvironmentMap::integrate(const Image& image) {
+    Vec2i size = texels_.size();
+    Vec3d mean;
+    double illuminance = 0;
+    for (int y = 0; y < size.y; ++y) {
+        auto omega = static_cast<double>(solid_angle(y));
+        for (int x = 0; x < size.x; ++x) {
+            Vec3 rgb = emitted_rgb(image, x, y);
+            mean += Vec3d(rgb) * (omega / (4 * static_cast<double>(pi)));
+            Vec2 middle{(static_cast<float>(x) + 0.5f) / static_cast<float>(size.x),
+                        (static_cast<float>(y) + 0.5f) / static_cast<float>(size.y)};
+            auto cosine = static_cast<double>(std::max(0.0f, direction(middle).z));
+            illuminance += static_cast<double>(rec709_luminance(rgb)) * omega * cosine;
+        }
+    }
+    mean_rgb_ = Vec3(mean);
+    illuminance_ = static_cast<float>(illuminance);
+}
+
+/// Of one texel of the row.
+float EnvironmentMap::solid_angle(int row) const {
+    auto width = static_cast<float>(texels_.size().x), height = static_cast<float>(texels_.size().y);
+    if (is_octahedral()) return 4 * pi / (width * height);
+    // cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2), without cancellation at the poles.
+    float middle = pi * (static_cast<float>(row) + 0.5f) / height;
+    return 2 * pi / width * 2 * std::sin(middle) * std::sin(pi / (2 * height));
+}
+
+// Within a texel, equal areas of the unit square are equal solid angles.
+Vec3 EnvironmentMap::direction(Vec2 uv) const {
+    if (is_octahedral()) return equal_area_to_sphere(uv);
+    auto height = static_cast<float>(texels_.size().y);
+    float row = std::min(std::floor(uv.y * height), height - 1);
+    float upper = std::cos(pi * row / height), lower = std::cos(pi * (row + 1) / height);
+    float z = std::clamp(lerp(uv.y * height - row, upper, lower), -1.0f, 1.0f);
+    float r = safe_sqrt(1 - z * z), phi = 2 * pi * uv.x;
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+Vec2i EnvironmentMap::texel_of(Vec3 w) const {
+    if (is_octahedral()) return texels_.nearest(sphere_to_equal_area(w));
+    float phi = std::atan2(w.y, w.x) * (inv_pi / 2);
+    float theta = std::atan2(std::sqrt(w.x * w.x + w.y * w.y), w.z);
+    return texels_.nearest({phi < 0 ? phi + 1 : phi, theta * inv_pi});
+}
+
+EnvironmentMap::Sample EnvironmentMap::sample(Vec2 u) const {
+    auto s = distribution_.sample(u);
+    return {direction(s.p), pdf(s.cell), s.cell};
+}
+
+float EnvironmentMap::pdf(Vec2i texel) const {
+    auto width = static_cast<float>(texels_.size().x), height = static_cast<float>(texels_.size().y);
+    float per_square = distribution_.pdf(
+        {(static_cast<float>(texel.x) + 0.5f) / width, (static_cast<float>(texel.y) + 0.5f) / height});
+    return per_square / (width * height * solid_angle(texel.y));
+}
+
+} // namespace alhazen

@@ -1,0 +1,5 @@
+// Every kind of light that a LightSource directive may name.
+KIND(point)
+KIND(spot)
+KIND(distant)
+KIND(infinite)
