@@ -9,8 +9,8 @@ namespace alhazen {
 
 inline constexpr std::uint32_t no_primitive = 0xffffffffu;
 
-/// The nearest hit so far. u and v are the primitive's own parameters (barycentric coordinates of a triangle's
-/// second and third vertex; a quadric's parameters).
+/// The nearest hit so far. u and v are the primitive's own parameters (barycentric coordinates of a
+/// triangle's second and third vertex; a quadric's parameters).
 struct Intersection {
     float t = infinity; ///< along the ray
     float u = 0, v = 0;
