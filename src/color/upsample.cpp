@@ -14,7 +14,8 @@ namespace alhazen {
 
 namespace {
 
-constexpr double coefficient_limit = 1000; ///< where the sigmoid is a step to float precision
+/// Steeper spectra than this are steps within a few nm, which the nodes below cannot resolve.
+constexpr double coefficient_limit = 200;
 
 SigmoidCoefficients to_float(Vec3d c) {
     return {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
@@ -154,7 +155,7 @@ class Upsampler {
 
     /// rgb in [0, 1], not grey.
     SigmoidCoefficients find(Vec3 rgb) const {
-        return to_float(solve(Vec3d(rgb), interpolate(rgb), polish_steps, good_enough));
+        return to_float(best_of(Vec3d(rgb), interpolate(rgb), polish_steps));
     }
 
   private:
@@ -174,12 +175,12 @@ class Upsampler {
             Vec3d c = direction > 0 ? Vec3d() : to_double(table_[index(i, start, y, x)]);
             for (int z = direction > 0 ? start : start - 1; z >= 0 && z < resolution; z += direction) {
                 // Black has no finite coefficients; a colour below the second row stands for it.
-                double s = z > 0 ? scales_[static_cast<std::size_t>(z)] : scales_[1] * 0.1f;
+                double s = z > 0 ? std::min(scales_[static_cast<std::size_t>(z)], 0.99f) : scales_[1] * 0.1f;
                 Vec3d rgb;
                 rgb[i] = s;
                 rgb[(i + 1) % 3] = s * x / (resolution - 1);
                 rgb[(i + 2) % 3] = s * y / (resolution - 1);
-                c = solve(rgb, c, fit_steps, good_enough);
+                c = best_of(rgb, c, fit_steps);
                 table_[index(i, z, y, x)] = to_float(c);
             }
         }
@@ -220,22 +221,37 @@ class Upsampler {
         return -(normal.inverse() * (jt * g.residual));
     }
 
-    Vec3d solve(Vec3d rgb, Vec3d start, int steps, double tolerance) const {
+    /// From the given start; where that does not lead to the colour, from grey too.
+    Vec3d best_of(Vec3d rgb, Vec3d start, int steps) const {
         Lab target = lab_of(xyz_from_rgb_ * rgb);
-        Guess best = guess(start, target);
+        Guess best = improve(guess(start, target), rgb, target, steps);
+        if (largest(best.rgb - rgb) > good_enough) {
+            auto mean = static_cast<float>((rgb.x + rgb.y + rgb.z) / 3);
+            Guess grey = guess(to_double(SigmoidCoefficients::grey(std::clamp(mean, 0.01f, 0.99f))), target);
+            Guess other = improve(grey, rgb, target, fit_steps);
+            if (other.error < best.error) best = other;
+        }
+        return best.coefficients;
+    }
+
+    Guess improve(Guess best, Vec3d rgb, const Lab& target, int steps) const {
         double damping = 0;
-        for (int i = 0; i < steps && largest(best.rgb - rgb) > tolerance; ++i) {
+        for (int i = 0; i < steps && largest(best.rgb - rgb) > good_enough; ++i) {
             Vec3d next = best.coefficients + step(best, damping);
-            const Vec3d limit(coefficient_limit);
-            Guess trial = guess(min(max(next, -limit), limit), target);
+            // Scaled as a whole, the polynomial keeps its roots, where the spectrum rises and falls.
+            if (double most = largest(next); most > coefficient_limit) next *= coefficient_limit / most;
+            Guess trial = guess(next, target);
             if (trial.error < best.error) {
+                bool stalls = trial.error > 0.98 * best.error;
                 best = trial;
+                if (stalls) break;
                 damping *= 0.2;
             } else {
+                if (damping > 100) break;
                 damping = std::max(10 * damping, 1e-3);
             }
         }
-        return best.coefficients;
+        return best;
     }
 
     Quadrature quadrature_;
