@@ -9,8 +9,8 @@
 
 namespace alhazen {
 
-/// Which way light is followed. Radiance that is refracted is squeezed by eta^2; importance is not (Veach 1997,
-/// section 5.2).
+/// Which way light is followed. Radiance that is refracted is squeezed by eta^2; importance is not (Veach
+/// 1997, section 5.2).
 enum class TransportMode { radiance, importance };
 
 /// The parts of a BSDF, as a set of bits.
@@ -38,11 +38,12 @@ struct Scatter {
 
 struct BsdfSample {
     Vec3 wi;
-    Spectrum f;            ///< BSDF times |cos(wi)|; for specular lobes its integral, so that f / pdf is the weight
-    float pdf = 0;         ///< per steradian; for specular lobes the probability of choosing the lobe
+    Spectrum f;    ///< BSDF times |cos(wi)|; for specular lobes its integral, so that f / pdf is the weight
+    float pdf = 0; ///< per steradian; for specular lobes the probability of choosing the lobe
     float pdf_reverse = 0;
-    Lobes lobes = Lobes::none; ///< of the sampled part: reflection or transmission, with diffuse, glossy or specular
-    float eta = 1;             ///< for transmission: index on the side of wi over that on the side of wo
+    Lobes lobes =
+        Lobes::none; ///< of the sampled part: reflection or transmission, with diffuse, glossy or specular
+    float eta = 1;   ///< for transmission: index on the side of wi over that on the side of wo
 };
 
 /// What the Whitted integrator needs besides local(): the textbook's constants.
@@ -58,8 +59,8 @@ struct WhittedTerms {
 struct Bsdf {
     /// Value and densities without the specular lobes; zero where wo.z or wi.z is 0.
     virtual Scatter eval(Vec3 wo, Vec3 wi, TransportMode mode = TransportMode::radiance) const = 0;
-    /// A direction with density eval().pdf, or a specular one. u chooses among lobes, u2 within; uniform in [0, 1).
-    /// nullopt when the sample is lost (absorbed, below the surface).
+    /// A direction with density eval().pdf, or a specular one. u chooses among lobes, u2 within; uniform in
+    /// [0, 1). nullopt when the sample is lost (absorbed, below the surface).
     virtual std::optional<BsdfSample> sample(Vec3 wo, float u, Vec2 u2,
                                              TransportMode mode = TransportMode::radiance) const = 0;
     /// The parts it has.

@@ -13,9 +13,9 @@ struct Material {
     static constexpr std::string_view family_name = "material";
     virtual ~Material() = default;
 
-    /// The BSDF at the hit, made in the arena; nullptr where the surface is only a border between media, which
-    /// light crosses as if it were not there. A material whose index of refraction varies with the wavelength
-    /// terminates lambda's secondary wavelengths.
+    /// The BSDF at the hit, made in the arena; nullptr where the surface is only a border between media,
+    /// which light crosses as if it were not there. A material whose index of refraction varies with the
+    /// wavelength terminates lambda's secondary wavelengths.
     virtual Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const = 0;
     /// True when at() always returns nullptr.
     virtual bool is_interface() const { return false; }

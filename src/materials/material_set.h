@@ -12,17 +12,20 @@ namespace alhazen {
 
 class MaterialSet {
   public:
-    /// Builds every node (context.textures must be set), adding errors to the context. Mixtures may refer to any
-    /// named material, also to later ones, but not to themselves through others. Duplicate names are errors.
+    /// Builds every node (context.textures must be set), adding errors to the context. Mixtures may refer to
+    /// any named material, also to later ones, but not to themselves through others. Duplicate names are
+    /// errors. Sets context.materials to this set, which must then stay where it is.
     void build(const std::vector<Node>& nodes, BuildContext& context);
 
+    /// nullptr for a material that had errors.
     const Material* at(std::size_t index) const { return list_[index].get(); }
-    /// nullptr when there is none of that name.
+    /// nullptr when there is none of that name (or it had errors, or is not built yet).
     const Material* find(const std::string& name) const;
     std::vector<std::string> names() const;
     std::size_t size() const { return list_.size(); }
 
   private:
+    class Builder;
     std::vector<std::unique_ptr<Material>> list_;
     std::unordered_map<std::string, std::size_t> by_name_;
 };

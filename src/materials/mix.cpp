@@ -1,0 +1,81 @@
+/// Two materials sprinkled over one surface: each point shows one of them, chosen by a hash of its position,
+/// so that the mean over a pixel is the mixture (as pbrt-v4, but by the position alone: the same point shows
+/// the same material from every side).
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "materials/material_set.h"
+
+namespace alhazen {
+
+namespace {
+
+std::uint64_t hash_text(std::string_view text) {
+    std::uint64_t h = 0;
+    for (char c : text) h = hash_of(h, static_cast<unsigned char>(c));
+    return h;
+}
+
+struct Mix final : Material {
+    FloatTexture amount{0.5f};
+    std::vector<std::string> materials;
+    const Material* first = nullptr;
+    const Material* second = nullptr;
+    std::uint64_t salt = 0; ///< mixtures of mixtures must not all choose alike
+
+    static void describe(Fields<Mix>& f) {
+        f.about("Shows one of two materials at each point, at random.");
+        f.field("materials", &Mix::materials, "names of the two materials").required();
+        f.field("amount", &Mix::amount, "fraction of the second material").in(0, 1);
+        f.example("half and half", {two_materials("first", "second")});
+        f.example("a little", {two_materials("first", "second"), make_float("amount", 0.1f)});
+    }
+    static Parameter two_materials(std::string a, std::string b) {
+        return make_array<std::string>("materials", ValueType::string, {std::move(a), std::move(b)});
+    }
+
+    void finish(const Node& node, BuildContext& context) {
+        const Parameter& p = *node.find("materials");
+        if (materials.size() != 2) {
+            report_wrong_count(p, "two names of materials", context);
+            return;
+        }
+        first = find(materials[0], p, context);
+        second = find(materials[1], p, context);
+        salt = hash_of(hash_text(materials[0]), hash_text(materials[1]));
+    }
+
+    static const Material* find(const std::string& name, const Parameter& p, BuildContext& context) {
+        const Material* found = context.materials ? context.materials->find(name) : nullptr;
+        if (!found) {
+            std::vector<std::string> known;
+            if (context.materials) known = context.materials->names();
+            context.messages.add_error(p.place,
+                                       fmt::format("parameter \"materials\" refers to the material \"{}\", "
+                                                   "which is not defined{}",
+                                                   name, did_you_mean(name, known)));
+        }
+        return found;
+    }
+
+    const Material* choose(const Hit& hit) const override {
+        float t = amount.eval(TexturePoint(hit));
+        auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v); };
+        float u = unit_float(hash_of(salt, bits(hit.p.x), bits(hit.p.y), bits(hit.p.z)));
+        return (u < t ? second : first)->choose(hit);
+    }
+    Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
+        return choose(hit)->at(hit, lambda, arena);
+    }
+    bool is_interface() const override { return first->is_interface() && second->is_interface(); }
+};
+
+} // namespace
+
+Kind<Material> mix_material() {
+    return make_kind<Material, Mix>("mix");
+}
+
+} // namespace alhazen
