@@ -10,8 +10,8 @@
 
 namespace alhazen {
 
-/// A film's parameters and its pixels. A pixel's samples must be added in sample order by one thread at a time;
-/// different pixels may be added to from different threads.
+/// A film's parameters and its pixels. A pixel's samples must be added in sample order by one thread at a
+/// time; different pixels may be added to from different threads.
 struct Film {
     static constexpr std::string_view family_name = "film";
     virtual ~Film() = default;

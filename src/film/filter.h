@@ -1,5 +1,5 @@
-/// Reconstruction filters. A sample is placed by drawing from the filter around the pixel's centre and counts for
-/// that pixel alone (Ernst, Stamminger and Greiner 2006), so that a pixel has one owner.
+/// Reconstruction filters. A sample is placed by drawing from the filter around the pixel's centre and counts
+/// for that pixel alone (Ernst, Stamminger and Greiner 2006), so that a pixel has one owner.
 #pragma once
 
 #include "describe/kind.h"

@@ -18,8 +18,8 @@ struct Sampler {
     static constexpr std::string_view family_name = "sampler";
     virtual ~Sampler() = default;
 
-    /// The first state of a sample. A pixel's samples are 0 ... samples_per_pixel() - 1; asking for more is allowed
-    /// and stays well-defined.
+    /// The first state of a sample. A pixel's samples are 0 ... samples_per_pixel() - 1; asking for more is
+    /// allowed and stays well-defined.
     virtual SampleState start(Vec2i pixel, std::uint32_t sample) const = 0;
     /// The next number, advancing state.dimension by one.
     virtual float next1(SampleState& state) const = 0;

@@ -1,0 +1,35 @@
+/// The orthographic camera: all rays parallel, so that size does not change with distance. With a lens radius
+/// each place on the film has a small lens of its own, and the plane at the focal distance is sharp.
+#include "cameras/screen.h"
+#include "math/warp.h"
+
+namespace alhazen {
+
+namespace {
+
+class OrthographicCamera final : public FlatCamera {
+  public:
+    static void describe(Fields<OrthographicCamera>& f) {
+        f.about("Parallel rays, as in technical drawings: distant things keep their size.");
+        describe_flat(f);
+        describe_common(f);
+    }
+    void finish(const Node& node, BuildContext& context) { finish_flat(node, context); }
+
+    std::optional<CameraRay> ray(const CameraSample& sample) const override {
+        Vec2d s = screen(sample.film);
+        float time = ray_time(sample.time);
+        if (lensradius == 0) return make_ray({s.x, s.y, 0}, {0, 0, 1}, time);
+        Vec2d lens = Vec2d(sample_disk(sample.lens)) * static_cast<double>(lensradius);
+        return make_ray({s.x + lens.x, s.y + lens.y, 0},
+                        {-lens.x, -lens.y, static_cast<double>(focaldistance)}, time);
+    }
+};
+
+} // namespace
+
+Kind<Camera> orthographic_camera() {
+    return make_kind<Camera, OrthographicCamera>("orthographic");
+}
+
+} // namespace alhazen

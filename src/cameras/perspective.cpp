@@ -1,0 +1,63 @@
+/// The perspective camera: a pinhole, or a thin lens that is sharp at one distance (Pharr et al. 2023,
+/// section 5.2). Rays leave the origin through a window in the plane z = 1.
+#include "cameras/screen.h"
+#include "math/warp.h"
+
+namespace alhazen {
+
+namespace {
+
+class PerspectiveCamera final : public FlatCamera {
+  public:
+    float fov = 90;
+    std::optional<float> halffov;
+
+    static void describe(Fields<PerspectiveCamera>& f) {
+        f.about("What an eye or an ordinary camera sees: distant things are smaller.");
+        f.field("fov", &PerspectiveCamera::fov, "angle that the picture's shorter side covers")
+            .in(0, 180)
+            .above(0)
+            .unit("degrees");
+        f.field("halffov", &PerspectiveCamera::halffov, "half of that angle, instead of fov")
+            .in(0, 90)
+            .above(0)
+            .unit("degrees");
+        describe_flat(f);
+        describe_common(f);
+    }
+    void finish(const Node& node, BuildContext& context) {
+        if (!finish_flat(node, context)) return;
+        const double angle = halffov ? 2 * static_cast<double>(*halffov) : static_cast<double>(fov);
+        if (angle >= 180) {
+            std::string_view given = halffov ? "halffov" : "fov";
+            context.messages.add_error(camera_place(node, given),
+                                       "parameter \"" + std::string(given) + "\" is " +
+                                           number_text(halffov ? 90 : 180) +
+                                           "; it must be less, since a flat picture cannot show half of all "
+                                           "directions");
+            return;
+        }
+        half_size_ = std::tan(angle / 2 * (3.14159265358979323846 / 180));
+    }
+
+    std::optional<CameraRay> ray(const CameraSample& sample) const override {
+        Vec2d s = screen(sample.film) * half_size_;
+        Vec3d through(s.x, s.y, 1);
+        float time = ray_time(sample.time);
+        if (lensradius == 0) return make_ray({0, 0, 0}, through, time);
+        Vec2d lens = Vec2d(sample_disk(sample.lens)) * static_cast<double>(lensradius);
+        Vec3d from(lens.x, lens.y, 0);
+        return make_ray(from, through * static_cast<double>(focaldistance) - from, time);
+    }
+
+  private:
+    double half_size_ = 1; ///< half of the shorter side of the window at z = 1
+};
+
+} // namespace
+
+Kind<Camera> perspective_camera() {
+    return make_kind<Camera, PerspectiveCamera>("perspective");
+}
+
+} // namespace alhazen

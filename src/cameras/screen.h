@@ -1,0 +1,58 @@
+/// The rectangle that flat cameras look through, and what they share: shutter, lens, errors.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "cameras/camera.h"
+
+namespace alhazen {
+
+/// Where a parameter stands, or its node when the parameter is not given.
+Place camera_place(const Node& node, std::string_view parameter);
+
+/// Swaps a shutter that closes before it opens, with a warning.
+void check_shutter(Camera& camera, const Node& node, BuildContext& context);
+
+/// A camera that looks through a window in the plane z = 1 (perspective) or from a window in the plane z = 0
+/// (orthographic) of camera space: x to the right, y up, z ahead, left-handed. The film's top left corner is
+/// the window's left end and upper end.
+struct FlatCamera : Camera {
+    std::optional<float> frameaspectratio;
+    std::vector<float> screenwindow;
+    float lensradius = 0;
+    float focaldistance = 1e6f;
+
+  protected:
+    template <class T>
+    static void describe_flat(Fields<T>& f) {
+        f.field("frameaspectratio", &T::frameaspectratio, "the picture's width divided by its height")
+            .above(0)
+            .otherwise("that of the resolution");
+        f.field("screenwindow", &T::screenwindow, "what is seen on the screen: x from, x to, y from, y to")
+            .otherwise("-1 to 1 along the shorter side");
+        f.field("lensradius", &T::lensradius, "of the thin lens; 0 for a pinhole, all sharp")
+            .at_least(0)
+            .unit("camera space");
+        f.field("focaldistance", &T::focaldistance, "of the plane that is sharp")
+            .above(0)
+            .unit("camera space");
+    }
+    /// Checks what the fields share and works out the screen; true when there was no error.
+    bool finish_flat(const Node& node, BuildContext& context);
+    /// The place on the screen of a place on the film.
+    Vec2d screen(Vec2 film) const {
+        return {corner_.x + static_cast<double>(film.x) * step_.x,
+                corner_.y + static_cast<double>(film.y) * step_.y};
+    }
+    float ray_time(float u) const { return lerp(u, shutteropen, shutterclose); }
+    CameraRay make_ray(Vec3d origin, Vec3d direction, float time) const;
+
+    Transform world_from_camera_;
+
+  private:
+    Vec2d corner_, step_;
+};
+
+} // namespace alhazen

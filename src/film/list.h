@@ -1,0 +1,2 @@
+// The kinds of film; the first is what a scene gets that names none.
+KIND(rgb)

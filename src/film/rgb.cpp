@@ -1,0 +1,230 @@
+/// The film of a digital camera: each pixel is the weighted mean of its samples as the sensor sees them,
+/// turned into the colour space of the picture (Pharr et al. 2023, section 5.4).
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "color/color_space.h"
+#include "color/sensor.h"
+#include "film/film.h"
+
+namespace alhazen {
+
+enum class TransferCurve { srgb, linear };
+template <>
+struct EnumNames<TransferCurve> {
+    static constexpr std::array names{"srgb", "linear"};
+};
+
+namespace {
+
+Place place_of(const Node& node, std::string_view parameter) {
+    const Parameter* p = node.find(parameter);
+    return p ? p->place : node.place;
+}
+
+class RgbFilm final : public Film {
+  public:
+    int xresolution = 1280, yresolution = 720;
+    std::vector<float> cropwindow;
+    std::vector<int> pixelbounds;
+    float diagonal_mm = 35;
+    std::string file;
+    bool savefp16 = true;
+    std::optional<float> maxcomponentvalue;
+    std::string sensor_name = "cie1931";
+    float iso = 100;
+    float whitebalance = 0;
+    TransferCurve transfer = TransferCurve::srgb;
+
+    static void describe(Fields<RgbFilm>& f);
+    void finish(const Node& node, BuildContext& context);
+
+    Vec2i resolution() const override { return {xresolution, yresolution}; }
+    Rect2i pixels() const override { return pixels_; }
+    void set_resolution(Vec2i resolution) override;
+    void set_pixels(Rect2i pixels) override;
+    std::string filename() const override { return file; }
+    float diagonal() const override { return diagonal_mm * 1e-3f; }
+    bool half_float() const override { return savefp16; }
+    bool linear_transfer() const override { return transfer == TransferCurve::linear; }
+
+    void start(ColorMode mode) override;
+    void add(Vec2i pixel, Spectrum L, const Wavelengths& lambda, float weight) override {
+        Vec3 rgb = sensor_.to_sensor_rgb(L, lambda);
+        float largest = max_component(rgb);
+        if (largest > limit_) rgb *= limit_ / largest;
+        Sums& s = sums_[index(pixel)];
+        const double w = static_cast<double>(weight);
+        s.rgb += Vec3d(rgb) * w;
+        s.weight += w;
+    }
+    Image image() const override;
+
+  private:
+    // One 32-byte half of a cache line.
+    struct Sums {
+        Vec3d rgb;
+        double weight = 0;
+    };
+
+    std::size_t index(Vec2i p) const {
+        return static_cast<std::size_t>(p.y - pixels_.lo.y) * static_cast<std::size_t>(pixels_.width()) +
+               static_cast<std::size_t>(p.x - pixels_.lo.x);
+    }
+    Rect2i declared_pixels() const;
+    bool check_counts(const Node& node, BuildContext& context) const;
+
+    Rect2i pixels_;
+    Sensor sensor_;
+    const RgbColorSpace* space_ = &srgb_space();
+    Matrix3 output_from_sensor_;
+    float limit_ = infinity;
+    std::vector<Sums> sums_;
+};
+
+void RgbFilm::describe(Fields<RgbFilm>& f) {
+    using F = RgbFilm;
+    f.about("A digital camera's picture: red, green and blue for each pixel.");
+    f.field("xresolution", &F::xresolution, "width of the whole picture")
+        .in(1, Image::max_side)
+        .unit("pixels");
+    f.field("yresolution", &F::yresolution, "height of the whole picture")
+        .in(1, Image::max_side)
+        .unit("pixels");
+    f.field("cropwindow", &F::cropwindow,
+            "the part to render, as fractions of the picture: x from, x to, y from, y to; y counts down");
+    f.field("pixelbounds", &F::pixelbounds,
+            "the part to render, in pixels: x from, x to, y from, y to (to is not included); cropwindow goes "
+            "first");
+    f.field("diagonal", &F::diagonal_mm, "of the film; matters to realistic lenses").above(0).unit("mm");
+    f.field("filename", &F::file, "where the picture is written");
+    f.field("savefp16", &F::savefp16, "OpenEXR files hold 16-bit instead of 32-bit numbers");
+    f.field(
+         "maxcomponentvalue", &F::maxcomponentvalue,
+         "samples whose largest component is above this are scaled down to it: against bright specks, at the "
+         "price of energy")
+        .above(0)
+        .otherwise("no limit");
+    f.field("sensor", &F::sensor_name, "how colours are measured");
+    f.field("iso", &F::iso, "speed of the film; the picture is multiplied by exposure time times iso / 100")
+        .above(0);
+    f.field("whitebalance", &F::whitebalance, "colour temperature of light that shall look white; 0 for none")
+        .at_least(0)
+        .unit("K");
+    f.field("transfer", &F::transfer,
+            "how 8-bit files store values: by the sRGB curve, or linear, as they are (like MATLAB's imshow)");
+}
+
+bool RgbFilm::check_counts(const Node& node, BuildContext& context) const {
+    auto check = [&](std::string_view name, std::size_t count) {
+        if (count == 0 || count == 4) return true;
+        context.messages.add_error(place_of(node, name), "parameter \"" + std::string(name) + "\" has " +
+                                                             std::to_string(count) +
+                                                             " values, but must have 4");
+        return false;
+    };
+    return check("cropwindow", cropwindow.size()) && check("pixelbounds", pixelbounds.size());
+}
+
+// A crop window's edges are rounded up, so that windows that touch share no pixel.
+Rect2i RgbFilm::declared_pixels() const {
+    if (!cropwindow.empty()) {
+        auto edge = [&](float a, int size) {
+            return static_cast<int>(std::ceil(static_cast<float>(size) * std::clamp(a, 0.0f, 1.0f)));
+        };
+        auto [x0, x1] = std::minmax(cropwindow[0], cropwindow[1]);
+        auto [y0, y1] = std::minmax(cropwindow[2], cropwindow[3]);
+        return {{edge(x0, xresolution), edge(y0, yresolution)},
+                {edge(x1, xresolution), edge(y1, yresolution)}};
+    }
+    if (!pixelbounds.empty()) {
+        auto x = [&](int v) { return std::clamp(v, 0, xresolution); };
+        auto y = [&](int v) { return std::clamp(v, 0, yresolution); };
+        return {{x(pixelbounds[0]), y(pixelbounds[2])}, {x(pixelbounds[1]), y(pixelbounds[3])}};
+    }
+    return {{0, 0}, {xresolution, yresolution}};
+}
+
+void RgbFilm::finish(const Node& node, BuildContext& context) {
+    if (!check_counts(node, context)) return;
+    pixels_ = declared_pixels();
+    std::string_view crop = !cropwindow.empty() ? "cropwindow" : "pixelbounds";
+    if (!cropwindow.empty() && !pixelbounds.empty())
+        context.messages.add_warning(place_of(node, "pixelbounds"),
+                                     "pixelbounds has no effect, since cropwindow is given too");
+    else if (!pixelbounds.empty() &&
+             !(pixels_ == Rect2i{{pixelbounds[0], pixelbounds[2]}, {pixelbounds[1], pixelbounds[3]}}))
+        context.messages.add_warning(place_of(node, crop),
+                                     "pixelbounds reach beyond the picture and are cut");
+    if (pixels_.empty()) {
+        context.messages.add_error(place_of(node, crop),
+                                   "the part of the picture to render holds no pixels; \"" +
+                                       std::string(crop) + "\" must be x from, x to, y from, y to");
+        return;
+    }
+    try {
+        check_image_size(pixels_.width(), pixels_.height(), 3);
+    } catch (const std::runtime_error& e) {
+        context.messages.add_error(place_of(node, "xresolution"), e.what());
+        return;
+    }
+    // A colour space in effect at the film marks all of its parameters; those added in code stay at the
+    // default.
+    for (const Parameter& p : node.parameters)
+        if (const RgbColorSpace* space = find_color_space(p.color_space); space && space != &srgb_space())
+            space_ = space;
+    std::string error;
+    auto sensor = Sensor::find({sensor_name, context.exposure_time, iso, whitebalance}, *space_, error);
+    if (!sensor) {
+        context.messages.add_error(place_of(node, "sensor"), error);
+        return;
+    }
+    sensor_ = *sensor;
+    limit_ = maxcomponentvalue.value_or(infinity);
+}
+
+void RgbFilm::set_resolution(Vec2i resolution) {
+    xresolution = std::clamp(resolution.x, 1, Image::max_side);
+    yresolution = std::clamp(resolution.y, 1, Image::max_side);
+    // Bounds in pixels were meant for another size.
+    pixelbounds.clear();
+    set_pixels(declared_pixels());
+}
+
+void RgbFilm::set_pixels(Rect2i pixels) {
+    Vec2i lo{std::clamp(pixels.lo.x, 0, xresolution - 1), std::clamp(pixels.lo.y, 0, yresolution - 1)};
+    // A part that is left empty by rounding or a smaller picture keeps one pixel.
+    pixels_ = {
+        lo, {std::clamp(pixels.hi.x, lo.x + 1, xresolution), std::clamp(pixels.hi.y, lo.y + 1, yresolution)}};
+}
+
+void RgbFilm::start(ColorMode mode) {
+    check_image_size(pixels_.width(), pixels_.height(), 3);
+    output_from_sensor_ = sensor_.output_from_sensor(*space_, mode);
+    sums_.assign(static_cast<std::size_t>(pixels_.width()) * static_cast<std::size_t>(pixels_.height()), {});
+}
+
+Image RgbFilm::image() const {
+    Image image = Image::rgb_image(pixels_.width(), pixels_.height());
+    image.info.origin = pixels_.lo;
+    image.info.display_window = {{0, 0}, resolution()};
+    if (space_ != &srgb_space()) image.info.metadata["color_space"] = space_->name;
+    auto out = image.values();
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+        const Sums& s = sums_[i];
+        if (s.weight == 0) continue;
+        Vec3 rgb(output_from_sensor_ * (s.rgb * (1 / s.weight)));
+        for (std::size_t c = 0; c < 3; ++c) out[3 * i + c] = rgb[static_cast<int>(c)];
+    }
+    return image;
+}
+
+} // namespace
+
+Kind<Film> rgb_film() {
+    return make_kind<Film, RgbFilm>("rgb");
+}
+
+} // namespace alhazen
