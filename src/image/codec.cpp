@@ -67,9 +67,8 @@ Image decode_image(std::string_view bytes, std::string_view suffix, const ReadOp
         if (!expected) throw_unsupported(suffix);
         if (bytes.empty()) throw std::runtime_error("empty file, not an image");
         if (*expected != Format::tga)
-            throw std::runtime_error(
-                fmt::format("not an image: does not start like a {} file or any other known format",
-                            lower_case(suffix).substr(1)));
+            throw std::runtime_error(fmt::format(
+                "not an image: does not begin like \"{}\" or any other known format", lower_case(suffix)));
         format = expected;
     }
     switch (*format) {

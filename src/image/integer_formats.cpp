@@ -89,7 +89,12 @@ Image decode_integer(IntegerFormat format, std::string_view bytes, Encoding enco
     if (bytes.size() > INT_MAX) throw std::runtime_error(fmt::format("{} file larger than 2 GB", name));
     check_complete(format, bytes);
     auto info = stb_info(bytes);
-    if (!info) throw std::runtime_error(fmt::format("corrupt {} file ({})", name, stb_failure()));
+    if (!info) {
+        // Asked for a size, stb does not say what is wrong; asked for pixels, it does.
+        StbInfo unused;
+        stb_load_8(bytes, unused);
+        throw std::runtime_error(fmt::format("corrupt {} file ({})", name, stb_failure()));
+    }
     check_image_size(info->size.x, info->size.y, info->channels);
     if (encoding.kind == Encoding::Kind::automatic) encoding = Encoding::srgb();
     Image image;
