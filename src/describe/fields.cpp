@@ -66,6 +66,7 @@ bool check_range(const FieldDoc& field, const Parameter& p, BuildContext& contex
 
 void report_unknown_parameter(const Parameter& p, std::string_view owner, const std::vector<std::string>& known,
                               BuildContext& context) {
+    if (p.may_be_unused) return;
     context.messages.add_unsupported(
         p.place, fmt::format("unknown parameter \"{}\" of {}{}", p.name, owner, did_you_mean(p.name, known)),
         "the values without it");

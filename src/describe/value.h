@@ -44,6 +44,8 @@ struct Parameter {
     Place place;
     /// Colour space of rgb values: "srgb", "dci-p3", "rec2020" or "aces2065-1".
     std::string color_space = "srgb";
+    /// Given for a whole group of nodes (pbrt's Attribute), so that a node which has no such parameter ignores it.
+    bool may_be_unused = false;
 
     std::size_t count() const;
 };
