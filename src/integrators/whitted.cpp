@@ -44,6 +44,10 @@ struct Whitted final : Integrator {
     bool centres_single_samples() const override { return true; }
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override { return trace_ray(ray, maxdepth, path); }
 
+    /// The nearest surface along the ray. For a sphere that is the smaller positive root of a quadratic: see
+    /// intersect_ray_sphere in shapes/sphere.cpp.
+    static auto intersect_scene(const Ray& ray, PathContext& path) { return path.closest(ray); }
+
     Task<Spectrum> trace_ray(Ray ray, int depth, PathContext& path) const {
         if (depth == 0) co_return Spectrum(0);
         std::optional<Hit> hit = co_await intersect_scene(ray, path);
@@ -67,8 +71,6 @@ struct Whitted final : Integrator {
         }
         co_return sum;
     }
-
-    static auto intersect_scene(const Ray& ray, PathContext& path) { return path.closest(ray); }
 
     /// ka Ia + sum over lights [kd max(0, L.N) + ks max(0, R.V)^n] Il for phong materials, the BSDF's value for
     /// others; a light behind any object adds nothing. Area lights and environments give one sample each.

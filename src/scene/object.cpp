@@ -79,11 +79,19 @@ void Object::closest(const Ray& ray, Found& found) const {
 void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth,
                             std::array<const PlacedObject*, Found::max_depth>& chain) const {
     Intersection nearest;
+    float best_t = infinity;
+    std::uint32_t best = no_primitive;
+    // Of hits at the same distance the first primitive counts, as in the walk, so that found follows the walk.
+    auto accept = [&](float t, std::uint32_t index) {
+        if (!(t < best_t || (t == best_t && index < best))) return false;
+        best_t = t;
+        best = index;
+        return true;
+    };
     bvh_.closest(ray, nearest, [&](std::uint32_t index, const Ray& r, Intersection& hit) {
         const Primitive& primitive = primitives_[index];
         if (primitive.shape != instance_mark) {
-            if (!meets(r, primitive, hit)) return false;
-            hit.primitive = index;
+            if (!meets(r, primitive, hit) || !accept(hit.t, index)) return false;
             found.hit = hit;
             found.object = this;
             found.depth = depth;
@@ -97,25 +105,24 @@ void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth,
         Found inner;
         chain[depth] = &instance;
         instance.object->closest_nested(local, inner, depth + 1, chain);
-        if (!inner.object) return false;
-        found = inner;
         hit.t = inner.hit.t + shift;
-        hit.primitive = index;
+        if (!inner.object || !accept(hit.t, index)) return false;
+        found = inner;
         return true;
     });
 }
 
 bool Object::any(const Ray& ray) const {
-    return bvh_.any(ray, [&](std::uint32_t index, const Ray& r) {
+    return bvh_.any(ray, [&](std::uint32_t index, const Ray& r, Intersection& hit) {
         const Primitive& primitive = primitives_[index];
         if (primitive.shape == instance_mark) {
             const PlacedObject& instance = instances_[primitive.primitive];
             float shift = 0;
+            hit.t = 0;
             return instance.object->any(ray_into(instance, r, shift));
         }
         const Material* material = shapes_[primitive.shape].material;
         if (material && material->is_interface()) return false;
-        Intersection hit;
         return meets(r, primitive, hit);
     });
 }

@@ -34,7 +34,7 @@ SceneCounts Scene::counts() const {
     for (const auto& object : objects_) {
         counts.shapes += object->shapes().size();
         counts.instances += object->instances().size();
-        counts.accel_bytes += object->bvh().memory_bytes();
+        counts.accel_bytes += object->bvh().bytes();
         for (const PlacedShape& placed : object->shapes()) {
             counts.primitives += placed.shape->primitive_count();
             if (placed.shape->triangles()) counts.triangles += placed.shape->primitive_count();

@@ -1,0 +1,214 @@
+/// alhazen render: a scene file becomes pictures.
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "base/threads.h"
+#include "cli/commands.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/show.h"
+#include "formats/format.h"
+#include "image/codec.h"
+#include "render/renderer.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Set by the signal handler, read by the renderer.
+std::atomic<bool> interrupted{false};
+
+extern "C" void on_interrupt(int) {
+    // A second Ctrl-C ends the program at once.
+    if (interrupted.exchange(true)) _exit(exit_interrupted);
+}
+
+struct RenderOptions {
+    std::string scene;
+    std::vector<std::string> outputs;
+    SceneOptions scene_options;
+    std::string stats_file;
+    bool quiet = false;
+    bool show = false;
+};
+
+struct Timing {
+    double load = 0, build = 0;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) * 1024;
+}
+
+// Says what is wrong with an output before an hour of rendering rather than after it.
+void check_output(const std::string& file) {
+    std::filesystem::path path(file);
+    if (!has_image_suffix(path)) {
+        std::string known;
+        for (const std::string& suffix : image_suffixes()) known += (known.empty() ? "" : ", ") + suffix;
+        throw std::runtime_error(fmt::format("cannot write \"{}\": the suffix must be one of {}", file, known));
+    }
+    std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder))
+        throw std::runtime_error(fmt::format("cannot write \"{}\": there is no folder \"{}\"", file, folder.string()));
+    if (access(folder.c_str(), W_OK) != 0)
+        throw std::runtime_error(
+            fmt::format("cannot write \"{}\": no permission in folder \"{}\"", file, folder.string()));
+}
+
+void write_outputs(const World& world, const Image& image, const std::vector<std::string>& outputs) {
+    WriteOptions options;
+    options.depth = world.film->half_float() ? FloatDepth::half : FloatDepth::single;
+    options.transfer = world.film->linear_transfer() ? Transfer::linear : Transfer::srgb;
+    options.metadata["Software"] = "Alhazen " ALHAZEN_VERSION;
+    for (const std::string& file : outputs) {
+        try {
+            write_image(file, image, options);
+        } catch (const std::exception& e) {
+            throw std::runtime_error(fmt::format("cannot write \"{}\": {}", file, e.what()));
+        }
+    }
+}
+
+void write_stats(const RenderOptions& options, const World& world, const RenderStats& stats, const Timing& timing,
+                 const Messages& messages) {
+    SceneCounts counts = world.scene->counts();
+    nlohmann::ordered_json json;
+    json["scene"] = options.scene;
+    json["load_seconds"] = timing.load;
+    json["build_seconds"] = timing.build;
+    json["render_seconds"] = stats.seconds;
+    json["samples_per_pixel"] = stats.samples;
+    json["width"] = world.film->pixels().width();
+    json["height"] = world.film->pixels().height();
+    json["rays"] = {{"camera", stats.rays.camera},
+                    {"bounce", stats.rays.bounce},
+                    {"shadow", stats.rays.shadow},
+                    {"total", stats.rays.total()}};
+    json["mrays_per_second"] = static_cast<double>(stats.rays.total()) / 1e6 / std::max(stats.seconds, 1e-9);
+    json["peak_memory_bytes"] = peak_memory_bytes();
+    json["triangles"] = counts.triangles;
+    json["primitives"] = counts.primitives;
+    json["instances"] = counts.instances;
+    json["threads"] =
+        options.scene_options.settings.threads > 0 ? options.scene_options.settings.threads : hardware_threads();
+    json["non_finite_samples"] = stats.bad_samples;
+    json["cancelled"] = stats.cancelled;
+    json["warnings"] = nlohmann::json::array();
+    for (const Message& m : messages.warnings()) json["warnings"].push_back(m.full_text());
+    write_file(options.stats_file, json.dump(2) + "\n");
+}
+
+void report_bad_samples(const RenderOptions& options, const RenderStats& stats) {
+    if (stats.bad_samples == 0) return;
+    fmt::print(stderr, "alhazen: warning: {} samples were not finite numbers and were left out; the first:\n",
+               stats.bad_samples);
+    for (const BadSample& bad : stats.first_bad_samples)
+        fmt::print(stderr, "    pixel {},{} sample {}: alhazen render {} --crop {},{},{},{} --spp {}\n", bad.pixel.x,
+                   bad.pixel.y, bad.sample, options.scene, bad.pixel.x, bad.pixel.y, bad.pixel.x + 1, bad.pixel.y + 1,
+                   stats.samples);
+}
+
+RenderStats render_with_progress(World& world, const RenderOptions& options) {
+    interrupted = false;
+    struct sigaction handler {};
+    handler.sa_handler = on_interrupt;
+    struct sigaction before {};
+    sigaction(SIGINT, &handler, &before);
+    ProgressBar bar(options.quiet);
+    RenderWatch watch;
+    watch.cancel = &interrupted;
+    watch.progress = [&](const Progress& p) { bar.update(p); };
+    RenderStats stats = render(world, options.scene_options.settings, watch);
+    bar.finish();
+    sigaction(SIGINT, &before, nullptr);
+    return stats;
+}
+
+// A picture for the viewer: one of the outputs that it can show, else a PNG of its own.
+std::filesystem::path picture_for_viewer(const World& world, const Image& image,
+                                         const std::vector<std::string>& outputs) {
+    for (const std::string& file : outputs)
+        if (!is_float_suffix(std::filesystem::path(file).extension().string())) return file;
+    auto file = std::filesystem::temp_directory_path() / fmt::format("alhazen-{}.png", getpid());
+    write_outputs(world, image, {file.string()});
+    return file;
+}
+
+int run_render(RenderOptions& options) {
+    for (const std::string& file : options.outputs) check_output(file);
+    if (!options.stats_file.empty()) {
+        auto folder = std::filesystem::path(options.stats_file).parent_path();
+        if (!folder.empty() && !std::filesystem::is_directory(folder))
+            throw std::runtime_error(fmt::format("cannot write \"{}\": there is no such folder", options.stats_file));
+    }
+
+    Messages messages;
+    messages.lenient = options.scene_options.lenient;
+    Timing timing;
+    auto start = std::chrono::steady_clock::now();
+    std::unique_ptr<World> world;
+    with_threads(options.scene_options.settings.threads, [&] {
+        SceneDescription description = read_scene(options.scene, messages);
+        timing.load = seconds_since(start);
+        world = build_world(std::move(description), options.scene_options.settings, messages);
+        timing.build = seconds_since(start) - timing.load;
+    });
+    for (const Message& m : messages.warnings())
+        if (!options.quiet) fmt::print(stderr, "{}\n", m.full_text());
+    if (options.outputs.empty()) {
+        std::string own = world->film->filename();
+        options.outputs = {own.empty() ? std::filesystem::path(options.scene).stem().string() + ".exr" : own};
+        check_output(options.outputs.front());
+    }
+
+    RenderStats stats = render_with_progress(*world, options);
+    Image image = world->film->image();
+    write_outputs(*world, image, options.outputs);
+    report_bad_samples(options, stats);
+    if (!options.stats_file.empty()) write_stats(options, *world, stats, timing, messages);
+    if (!options.quiet)
+        for (const std::string& file : options.outputs)
+            fmt::print("{}: {} x {}, {} spp, {}, {:.2f} Mrays/s\n", file, image.width(), image.height(), stats.samples,
+                       duration_text(stats.seconds),
+                       static_cast<double>(stats.rays.total()) / 1e6 / std::max(stats.seconds, 1e-9));
+    if (options.show) show_picture(image, picture_for_viewer(*world, image, options.outputs));
+    return stats.cancelled ? exit_interrupted : exit_ok;
+}
+
+} // namespace
+
+void add_render_command(CLI::App& app, Action& action) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "render a scene into image files");
+    command->add_option("SCENE", options->scene, "scene file (.pbrt)")->required();
+    command
+        ->add_option("-o,--output", options->outputs,
+                     "image file; give several for several formats (.exr .png .jpg .hdr .pfm ...)")
+        ->type_name("FILE")
+        ->expected(1)
+        ->take_all();
+    add_scene_options(*command, options->scene_options);
+    command->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+    command->add_option("--stats", options->stats_file, "write timings and counts as JSON")->type_name("FILE");
+    command->add_flag("--show", options->show, "put the picture on the screen when done");
+    command->callback([options, &action] { action = [options] { return run_render(*options); }; });
+}
+
+} // namespace alhazen
