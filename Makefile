@@ -1,0 +1,86 @@
+# The commands. Each installs the packages it needs (Debian, Ubuntu) and builds what has changed.
+#
+#   make                          build, and render the first picture
+#   make render SCENE=file.pbrt   render another scene; OUT=picture.png, ARGS="--spp 16" if wanted
+#   make test                     build, and run every test
+#   make check                    format, layers, style
+#   make install PREFIX=/usr/local
+
+SCENE ?= scenes/whitted-spheres.pbrt
+OUT ?= $(patsubst %.pbrt,%,$(patsubst %.gz,%,$(notdir $(SCENE)))).png
+ARGS ?=
+PREFIX ?= /usr/local
+# For make sanitize, tsan: which tests, as ctest takes it (TESTS="-LE slow").
+TESTS ?=
+
+.PHONY: all render program build test check format sanitize tsan coverage tidy clang install clean
+.NOTPARALLEL:
+
+all: render
+
+render: program
+	@echo "Rendering $(SCENE)"
+	@build/bin/alhazen render "$(SCENE)" -o "$(OUT)" --show $(ARGS)
+	@echo "The picture is $(abspath $(OUT))"
+
+# The program without the tests, which need more packages.
+program:
+	@tools/install_packages build
+	@test -f build/build.ninja || cmake --preset release -DALHAZEN_TESTS=OFF
+	@cmake --build --preset release --target alhazen
+
+build:
+	@tools/install_packages build test
+	@grep -qs ALHAZEN_TESTS:BOOL=ON build/CMakeCache.txt && test -f build/build.ninja || \
+		cmake --preset release -DALHAZEN_TESTS=ON
+	@cmake --build --preset release
+
+test: build
+	ctest --preset release
+
+check:
+	@tools/install_packages test format
+	tools/check_format
+	tools/check_layers
+	tools/check_style
+
+format:
+	@tools/install_packages format
+	tools/check_format --fix
+
+# $(call with_preset,NAME): builds and tests in a folder of its own.
+define with_preset
+	@test -f build-$(1)/build.ninja || cmake --preset $(1)
+	@cmake --build --preset $(1)
+	ctest --preset $(1) $(TESTS)
+endef
+
+sanitize:
+	@tools/install_packages build test
+	$(call with_preset,sanitize)
+
+tsan:
+	@tools/install_packages build test
+	$(call with_preset,tsan)
+
+clang:
+	@tools/install_packages build test clang
+	$(call with_preset,clang)
+
+coverage:
+	@tools/install_packages build test coverage
+	@find build-coverage -name '*.gcda' -delete 2>/dev/null || true
+	$(call with_preset,coverage)
+	gcovr --root . --object-directory build-coverage --filter src/ --sort-percentage --print-summary
+
+tidy:
+	@tools/install_packages build test clang tidy
+	@test -f build-clang/build.ninja || cmake --preset clang
+	run-clang-tidy-16 -quiet -p build-clang '/src/.*\.cpp$$'
+
+install: program
+	@cmake --build --preset release --target alhazen_library
+	cmake --install build --prefix "$(PREFIX)"
+
+clean:
+	rm -rf build build-debug build-sanitize build-tsan build-coverage build-clang
