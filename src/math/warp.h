@@ -102,7 +102,8 @@ inline float cone_pdf(float one_minus_cos_max) {
     return inv_pi / 2 / one_minus_cos_max;
 }
 inline Vec2 invert_cone(Vec3 w, float one_minus_cos_max) {
-    float h = w.z > 0 ? one_minus_cos_from_sin2(std::min(1.0f, w.x * w.x + w.y * w.y)) : 1 - w.z;
+    // 1 - cos = sin^2 / (1 + cos), without cancellation towards the axis.
+    float h = w.z > 0 ? (w.x * w.x + w.y * w.y) / (1 + w.z) : 1 - w.z;
     float phi = std::atan2(w.y, w.x) * (inv_pi / 2);
     return {std::clamp(h / one_minus_cos_max, 0.0f, 1.0f), phi < 0 ? phi + 1 : phi};
 }
