@@ -1,5 +1,5 @@
-/// Shapes: surfaces that rays meet and lights are made of. A shape has one or more primitives (a mesh's triangles,
-/// a single sphere), which the acceleration structure sees one by one.
+/// Shapes: surfaces that rays meet and lights are made of. A shape has one or more primitives (a mesh's
+/// triangles, a single sphere), which the acceleration structure sees one by one.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,8 @@
 #include "textures/texture.h"
 
 namespace alhazen {
+
+struct TriangleMesh; // shapes/triangle_mesh.h
 
 /// A point chosen on a primitive.
 struct ShapeSample {
@@ -30,28 +32,32 @@ struct Shape {
     virtual std::uint32_t primitive_count() const { return 1; }
     virtual Bounds3 bounds(std::uint32_t primitive) const = 0;
 
-    /// When the ray meets the primitive at 0 < t < ray.tmax: sets hit's t, u, v and returns true; otherwise leaves
-    /// hit alone. Must be safe for any ray, NaN and infinity included (then: no hit).
+    /// When the ray meets the primitive at 0 < t < ray.tmax: sets hit's t, u, v and returns true; otherwise
+    /// leaves hit alone. Must be safe for any ray, NaN and infinity included (then: no hit).
     virtual bool intersect(const Ray& ray, std::uint32_t primitive, Intersection& hit) const = 0;
-    /// Everything geometric about an intersection: p, p_error, wo, ng, ns, dpdu, dpdv, uv, t, time, primitive.
-    /// (material, area_light, shape and instance are the scene's.)
+    /// Everything geometric about an intersection: p, p_error, wo, ng, ns, dpdu, dpdv, uv, t, time,
+    /// primitive. (material, area_light, shape and instance are the scene's.)
     virtual Hit surface(const Ray& ray, std::uint32_t primitive, const Intersection& hit) const = 0;
 
     virtual float area(std::uint32_t primitive) const = 0;
     /// A point uniform over the primitive's area (density 1 / area).
     virtual ShapeSample sample(std::uint32_t primitive, Vec2 u) const = 0;
-    /// A point chosen with a density per steradian seen from reference; nullopt when none can be seen. The default
-    /// chooses by area and converts.
+    /// A point chosen with a density per steradian seen from reference; nullopt when none can be seen. The
+    /// default chooses by area and converts.
     virtual std::optional<ShapeSample> sample_from(std::uint32_t primitive, Vec3 reference, Vec2 u) const;
-    /// The density per steradian with which sample_from chooses the point of the hit, met along the unit direction
-    /// wi from reference.
+    /// The density per steradian with which sample_from chooses the point of the hit, met along the unit
+    /// direction wi from reference.
     virtual float pdf_from(std::uint32_t primitive, Vec3 reference, const Hit& hit, Vec3 wi) const;
-    /// A cone holding all outward normals of the primitive: axis (unit) and cosine of the half angle (-1: any).
+    /// A cone holding all outward normals of the primitive: axis (unit) and cosine of the half angle (-1:
+    /// any).
     struct NormalCone {
         Vec3 axis{0, 0, 1};
         float cosine = -1;
     };
     virtual NormalCone normals(std::uint32_t /*primitive*/) const { return {}; }
+
+    /// The mesh, when the primitives are triangles: scenes test those without a virtual call a triangle.
+    virtual const TriangleMesh* triangles() const { return nullptr; }
 
     /// Fraction of the surface that is there: 1 solid, 0 not there; between, by chance.
     FloatTexture alpha{1.0f};

@@ -1,0 +1,194 @@
+#include "shapes/triangle_mesh.h"
+
+#include "math/warp.h"
+#include "shapes/mesh_arrays.h"
+#include "shapes/rounding.h"
+#include "shapes/spherical_triangle.h"
+
+namespace alhazen {
+
+namespace {
+
+// Solid angles (steradians) between which triangles are sampled by solid angle: smaller ones lose digits,
+// larger ones are left to BSDF sampling (Pharr, Jakob and Humphreys 2023, section 6.5.4).
+constexpr double least_solid_angle = 3e-4;
+constexpr double largest_solid_angle = 6.22;
+
+template <class V>
+V weigh(const std::vector<V>& values, const int* corners, Vec3d b) {
+    auto at = [&](int i) { return values[static_cast<std::size_t>(corners[i])]; };
+    return at(0) * static_cast<float>(b.x) + at(1) * static_cast<float>(b.y) +
+           at(2) * static_cast<float>(b.z);
+}
+
+Vec3d weigh_exactly(const std::vector<Vec3>& values, const int* corners, Vec3d b) {
+    auto at = [&](int i) { return Vec3d(values[static_cast<std::size_t>(corners[i])]); };
+    return at(0) * b.x + at(1) * b.y + at(2) * b.z;
+}
+
+Vec3d weights_of(const Intersection& met) {
+    double u = static_cast<double>(met.u), v = static_cast<double>(met.v);
+    return {1 - u - v, u, v};
+}
+
+// The weights of the corners where the ray from the eye along w meets the plane (Moeller and Trumbore 1997).
+Vec3d weights_along(Vec3d eye, Vec3d w, Vec3d a, Vec3d b, Vec3d c) {
+    Vec3d ab = b - a, ac = c - a, s = eye - a, n = cross(w, ac);
+    double scale = 1 / dot(ab, n);
+    double u = std::clamp(dot(s, n) * scale, 0.0, 1.0);
+    double v = std::clamp(dot(w, cross(s, ab)) * scale, 0.0, 1.0 - u);
+    return {1 - u - v, u, v};
+}
+
+} // namespace
+
+void TriangleMesh::prepare(const Place& place, const std::string& prefix, BuildContext& context) {
+    MeshChecks checks{context.messages, place, prefix};
+    std::size_t errors = context.messages.error_count();
+    if (indices.empty() && P.size() == 3) indices = {0, 1, 2};
+    checks.counts(P.size(), {{"N", N.size()}, {"S", S.size()}, {"uv", uv.size()}});
+    checks.indices(indices, 3, "triangle", P.size());
+    checks.finite("P", P);
+    checks.finite("N", N);
+    checks.finite("uv", uv);
+    if (context.messages.error_count() != errors) return;
+    is_turned_ = context.reverse_orientation != context.world_from_node.swaps_handedness();
+    positions_to_world(P, context.world_from_node);
+    normals_to_world(N, context.world_from_node, context.reverse_orientation);
+    for (Vec3& s : S) s = context.world_from_node.vector(s);
+    checks.finite_in_world(P);
+}
+
+std::array<Vec2, 3> TriangleMesh::corner_uv(std::uint32_t triangle) const {
+    if (uv.empty()) return {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}};
+    const int* i = corner_indices(triangle);
+    return {uv[static_cast<std::size_t>(i[0])], uv[static_cast<std::size_t>(i[1])],
+            uv[static_cast<std::size_t>(i[2])]};
+}
+
+Vec3d TriangleMesh::face_normal(std::uint32_t triangle) const {
+    auto [a, b, c] = vertices(triangle);
+    Vec3d n = cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a));
+    double size = length(n);
+    if (!(size > 0)) return {0, 0, 1};
+    return n * ((is_turned_ ? -1 : 1) / size);
+}
+
+Vec3d TriangleMesh::vertex_normal(std::uint32_t triangle, Vec3d b) const {
+    return N.empty() ? Vec3d{} : weigh_exactly(N, corner_indices(triangle), b);
+}
+
+Bounds3 TriangleMesh::bounds(std::uint32_t triangle) const {
+    Bounds3 box;
+    for (Vec3 p : vertices(triangle)) box.extend(p);
+    return box;
+}
+
+Hit TriangleMesh::surface(const Ray& ray, std::uint32_t triangle, const Intersection& met) const {
+    const int* corners = corner_indices(triangle);
+    Vec3d b = weights_of(met);
+    Vec3d p = weigh_exactly(P, corners, b);
+    Vec3d ng = face_normal(triangle), ns = vertex_normal(triangle, b);
+    double size = length(ns);
+    // Vertex normals decide which side is outside.
+    if (dot(ng, ns) < 0) ng = -ng;
+    Hit hit;
+    hit.p = Vec3(p);
+    auto [pa, pb, pc] = vertices(triangle);
+    hit.p_error = rounding_error(p, abs_sum(Vec3d(pa), Vec3d(pb), Vec3d(pc)));
+    hit.wo = Vec3(normalize(Vec3d(-ray.d)));
+    hit.ng = Vec3(ng);
+    hit.ns = size > 0 && std::isfinite(size) ? Vec3(ns * (1 / size)) : hit.ng;
+    auto corner = corner_uv(triangle);
+    hit.uv = corner[0] * static_cast<float>(b.x) + corner[1] * static_cast<float>(b.y) +
+             corner[2] * static_cast<float>(b.z);
+    hit.t = met.t;
+    hit.time = ray.time;
+    hit.primitive = triangle;
+    set_tangents(triangle, hit, b);
+    return hit;
+}
+
+void TriangleMesh::set_tangents(std::uint32_t triangle, Hit& hit, Vec3d b) const {
+    auto [pa, pb, pc] = vertices(triangle);
+    auto corner = corner_uv(triangle);
+    Vec3d dp0 = Vec3d(pa) - Vec3d(pc), dp1 = Vec3d(pb) - Vec3d(pc);
+    Vec2d duv0 = Vec2d(corner[0]) - Vec2d(corner[2]), duv1 = Vec2d(corner[1]) - Vec2d(corner[2]);
+    double determinant = duv0.x * duv1.y - duv0.y * duv1.x;
+    // p is linear in uv, so two edges give the derivatives, unless the parameters do not span the plane.
+    if (std::abs(determinant) > 1e-9 * length(duv0) * length(duv1)) {
+        hit.dpdu = Vec3((dp0 * duv1.y - dp1 * duv0.y) * (1 / determinant));
+        hit.dpdv = Vec3((dp1 * duv0.x - dp0 * duv1.x) * (1 / determinant));
+    } else {
+        Frame frame = Frame::from_z(hit.ng);
+        hit.dpdu = frame.x;
+        hit.dpdv = frame.y;
+    }
+    if (N.empty() && S.empty()) return;
+    // The shading tangent: the mesh's own, or dpdu, laid across the shading normal.
+    Vec3 tangent = S.empty() ? hit.dpdu : weigh(S, corner_indices(triangle), b);
+    if (!(length_squared(tangent) > 0)) tangent = hit.dpdu;
+    Vec3 bitangent = cross(hit.ns, tangent);
+    if (length_squared(bitangent) > 0) {
+        hit.dpdu = cross(bitangent, hit.ns);
+        hit.dpdv = bitangent;
+    } else {
+        Frame frame = Frame::from_z(hit.ns);
+        hit.dpdu = frame.x;
+        hit.dpdv = frame.y;
+    }
+}
+
+float TriangleMesh::area(std::uint32_t triangle) const {
+    auto [a, b, c] = vertices(triangle);
+    return static_cast<float>(0.5 * length(cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a))));
+}
+
+ShapeSample TriangleMesh::sample_at(std::uint32_t triangle, Vec3d b, float pdf) const {
+    Vec3d p = weigh_exactly(P, corner_indices(triangle), b), ng = face_normal(triangle);
+    if (dot(ng, vertex_normal(triangle, b)) < 0) ng = -ng;
+    auto [pa, pb, pc] = vertices(triangle);
+    auto corner = corner_uv(triangle);
+    Vec2 at = corner[0] * static_cast<float>(b.x) + corner[1] * static_cast<float>(b.y) +
+              corner[2] * static_cast<float>(b.z);
+    return {Vec3(p), rounding_error(p, abs_sum(Vec3d(pa), Vec3d(pb), Vec3d(pc))), Vec3(ng), at, pdf};
+}
+
+ShapeSample TriangleMesh::sample(std::uint32_t triangle, Vec2 u) const {
+    return sample_at(triangle, Vec3d(sample_triangle(u)), 1 / area(triangle));
+}
+
+std::optional<ShapeSample> TriangleMesh::sample_from(std::uint32_t triangle, Vec3 reference, Vec2 u) const {
+    auto [a, b, c] = vertices(triangle);
+    SphericalTriangle seen{Vec3d(a), Vec3d(b), Vec3d(c), Vec3d(reference)};
+    double solid_angle = seen.solid_angle();
+    if (!(solid_angle >= least_solid_angle && solid_angle <= largest_solid_angle))
+        return Shape::sample_from(triangle, reference, u);
+    Vec3d weights = weights_along(Vec3d(reference), seen.sample(Vec2d(u)), Vec3d(a), Vec3d(b), Vec3d(c));
+    return sample_at(triangle, weights, static_cast<float>(1 / solid_angle));
+}
+
+float TriangleMesh::pdf_from(std::uint32_t triangle, Vec3 reference, const Hit& hit, Vec3 wi) const {
+    auto [a, b, c] = vertices(triangle);
+    double solid_angle = SphericalTriangle(Vec3d(a), Vec3d(b), Vec3d(c), Vec3d(reference)).solid_angle();
+    if (!(solid_angle >= least_solid_angle && solid_angle <= largest_solid_angle))
+        return Shape::pdf_from(triangle, reference, hit, wi);
+    return static_cast<float>(1 / solid_angle);
+}
+
+Shape::NormalCone TriangleMesh::normals(std::uint32_t triangle) const {
+    Vec3d n = face_normal(triangle);
+    if (N.empty()) return {Vec3(n), 1};
+    // Turned to the side of the vertex normals; where these disagree, so do the triangle's two sides.
+    double side = 0;
+    for (int i = 0; i < 3; ++i) {
+        Vec3d b;
+        b[i] = 1;
+        double s = dot(n, vertex_normal(triangle, b));
+        if (side * s < 0) return {};
+        if (s != 0) side = s;
+    }
+    return {Vec3(side < 0 ? -n : n), 1};
+}
+
+} // namespace alhazen

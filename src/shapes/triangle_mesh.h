@@ -1,0 +1,65 @@
+/// Triangles over shared vertices, in world space. The kinds that give triangles (trianglemesh, plymesh) fill
+/// it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "shapes/shape.h"
+#include "shapes/triangle.h"
+
+namespace alhazen {
+
+struct TriangleMesh : Shape {
+    std::vector<Vec3> P;      ///< positions
+    std::vector<Vec3> N;      ///< normals, one a vertex, or none; not unit length
+    std::vector<Vec3> S;      ///< tangents, one a vertex, or none
+    std::vector<Vec2> uv;     ///< one a vertex, or none: then (0,0), (1,0), (1,1) for each triangle
+    std::vector<int> indices; ///< three a triangle, each valid
+
+    std::array<Vec3, 3> vertices(std::uint32_t triangle) const {
+        const int* i = corner_indices(triangle);
+        return {P[static_cast<std::size_t>(i[0])], P[static_cast<std::size_t>(i[1])],
+                P[static_cast<std::size_t>(i[2])]};
+    }
+
+    std::uint32_t primitive_count() const final { return static_cast<std::uint32_t>(indices.size() / 3); }
+    Bounds3 bounds(std::uint32_t triangle) const final;
+    bool intersect(const Ray& ray, std::uint32_t triangle, Intersection& hit) const final {
+        return intersect_with(ray, RayShear(ray), triangle, hit);
+    }
+    /// As intersect, with the ray's shear made once for many triangles, and without a virtual call.
+    bool intersect_with(const Ray& ray, const RayShear& shear, std::uint32_t triangle,
+                        Intersection& hit) const {
+        auto [a, b, c] = vertices(triangle);
+        return intersect_triangle(ray, shear, a, b, c, hit);
+    }
+    Hit surface(const Ray& ray, std::uint32_t triangle, const Intersection& met) const final;
+    float area(std::uint32_t triangle) const final;
+    ShapeSample sample(std::uint32_t triangle, Vec2 u) const final;
+    std::optional<ShapeSample> sample_from(std::uint32_t triangle, Vec3 reference, Vec2 u) const final;
+    float pdf_from(std::uint32_t triangle, Vec3 reference, const Hit& hit, Vec3 wi) const final;
+    NormalCone normals(std::uint32_t triangle) const final;
+    const TriangleMesh* triangles() const final { return this; }
+
+  protected:
+    /// Checks the arrays against each other, takes them to world space and sets the orientation. Adds errors
+    /// at the place, each beginning with prefix.
+    void prepare(const Place& place, const std::string& prefix, BuildContext& context);
+
+  private:
+    const int* corner_indices(std::uint32_t triangle) const {
+        return indices.data() + std::size_t{3} * triangle;
+    }
+    std::array<Vec2, 3> corner_uv(std::uint32_t triangle) const;
+    // Unit, by the order of the corners, turned over where the mesh is.
+    Vec3d face_normal(std::uint32_t triangle) const;
+    // Weighted by b; zero when the mesh has no normals.
+    Vec3d vertex_normal(std::uint32_t triangle, Vec3d b) const;
+    ShapeSample sample_at(std::uint32_t triangle, Vec3d b, float pdf) const;
+    void set_tangents(std::uint32_t triangle, Hit& hit, Vec3d b) const;
+
+    bool is_turned_ = false;
+};
+
+} // namespace alhazen
