@@ -62,8 +62,11 @@ struct DielectricBsdf final : Bsdf {
         return is_specular() ? sample_specular(wo, u, mode) : sample_rough(wo, u, u2, mode);
     }
 
+    // Rounding would leave a trace of a mirror where there is nothing.
+    float specular_reflection(Vec3 wo) const { return eta == 1 ? 0 : fresnel_dielectric(cos_theta(wo), eta); }
+
     std::optional<BsdfSample> sample_specular(Vec3 wo, float u, TransportMode mode) const {
-        float reflected = fresnel_dielectric(cos_theta(wo), eta);
+        float reflected = specular_reflection(wo);
         if (u < reflected)
             return BsdfSample{{-wo.x, -wo.y, wo.z},
                               reflected,
@@ -110,7 +113,7 @@ struct DielectricBsdf final : Bsdf {
     void regularize() override { facets.regularize(); }
     WhittedTerms whitted(Vec3 wo) const override {
         if (!is_specular()) return {};
-        float reflected = fresnel_dielectric(cos_theta(wo), eta);
+        float reflected = specular_reflection(wo);
         return {.mirror = reflected, .refract = 1 - reflected, .eta = eta};
     }
 };

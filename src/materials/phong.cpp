@@ -66,8 +66,7 @@ class PhongBsdf final : public Bsdf {
         u -= choose_diffuse_;
         if (u < choose_glossy_) return sample_glossy(wo, u2, mode);
         u -= choose_glossy_;
-        if (u < choose_mirror_) return sample_mirror(wo, mirror_, choose_mirror_);
-        return choose_refract_ > 0 ? sample_refraction(wo, mode) : std::nullopt;
+        return sample_straight(wo, u, mode);
     }
 
     Lobes lobes() const override {
@@ -75,7 +74,8 @@ class PhongBsdf final : public Bsdf {
         if (choose_diffuse_ > 0) all = all | Lobes::reflection | Lobes::diffuse;
         if (choose_glossy_ > 0) all = all | Lobes::reflection | Lobes::glossy;
         if (mirror_ > 0) all = all | Lobes::reflection | Lobes::specular;
-        if (refract_ > 0) all = all | Lobes::transmission | Lobes::specular;
+        // Refraction mirrors where nothing gets through.
+        if (refract_ > 0) all = all | Lobes::reflection | Lobes::transmission | Lobes::specular;
         return all;
     }
 
@@ -120,12 +120,17 @@ class PhongBsdf final : public Bsdf {
         if (!(s.pdf > 0)) return std::nullopt;
         return BsdfSample{wi, s.f, s.pdf, s.pdf_reverse, Lobes::reflection | lobe, 1};
     }
-    static std::optional<BsdfSample> sample_mirror(Vec3 wo, float weight, float chance) {
-        return BsdfSample{mirrored(wo), weight, chance, chance, Lobes::reflection | Lobes::specular, 1};
-    }
-    std::optional<BsdfSample> sample_refraction(Vec3 wo, TransportMode mode) const {
+    // Mirror or refraction; both go one way where the border reflects everything.
+    std::optional<BsdfSample> sample_straight(Vec3 wo, float u, TransportMode mode) const {
+        if (choose_mirror_ + choose_refract_ <= 0) return std::nullopt;
         auto refraction = refract(wo, {0, 0, 1}, eta_);
-        if (!refraction || refraction->wt.z == 0) return sample_mirror(wo, refract_, choose_refract_);
+        bool is_total = !refraction || refraction->wt.z == 0;
+        if (is_total || u < choose_mirror_) {
+            float weight = mirror_ + (is_total ? refract_ : 0);
+            float chance = choose_mirror_ + (is_total ? choose_refract_ : 0);
+            return BsdfSample{mirrored(wo), weight, chance, chance, Lobes::reflection | Lobes::specular, 1};
+        }
+        if (choose_refract_ <= 0) return std::nullopt;
         float f = mode == TransportMode::radiance ? refract_ / sqr(refraction->eta) : refract_;
         return BsdfSample{
             refraction->wt, f, choose_refract_, choose_refract_, Lobes::transmission | Lobes::specular,
