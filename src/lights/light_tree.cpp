@@ -140,8 +140,9 @@ float LightTree::Node::importance(const LightReceiver& at) const {
             cos_received = cos_of_difference(safe_sqrt(1 - cos_i * cos_i), cos_i, sin_b, cos_b);
         }
     }
+    // Points at a light of no size are taken for very near ones.
     float value = power * std::max(cos_emitted, smallest_cosine) * std::max(cos_received, smallest_cosine) /
-                  std::max(d2, radius_squared);
+                  std::max(std::max(d2, radius_squared), 1e-20f);
     // Not too large for two to be added; the comparison also catches NaN.
     constexpr float largest = 1e30f;
     return value < largest ? std::max(value, std::numeric_limits<float>::min()) : largest;
