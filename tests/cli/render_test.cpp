@@ -1,0 +1,163 @@
+/// alhazen render, option by option, and what it says when something is wrong.
+#include <csignal>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "image/codec.h"
+#include "tests/cli/program.h"
+
+namespace alhazen::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Render : ProgramTest {
+    void SetUp() override {
+        ProgramTest::SetUp();
+        write_scene();
+    }
+    Image picture(const std::string& name) { return read_image(path(name)); }
+    void expect_error(const std::string& arguments, const std::string& message) {
+        Outcome o = alhazen(arguments);
+        EXPECT_EQ(o.exit_code, 2) << arguments;
+        EXPECT_THAT(o.err, HasSubstr(message)) << arguments;
+    }
+};
+
+TEST_F(Render, WritesEveryFormatAskedFor) {
+    Outcome o = alhazen("render scene.pbrt -o a.exr -o a.png -o a.jpg -o a.hdr -o a.pfm");
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    for (const char* name : {"a.exr", "a.png", "a.jpg", "a.hdr", "a.pfm"}) {
+        ASSERT_TRUE(exists(name)) << name;
+        EXPECT_EQ(picture(name).size(), (Vec2i{32, 24})) << name;
+        EXPECT_THAT(o.out, HasSubstr(std::string(name) + ": 32 x 24, 4 spp"));
+    }
+    EXPECT_EQ(o.err, "");
+}
+
+TEST_F(Render, WithoutOutputTheScenesOwnNameIsUsed) {
+    EXPECT_EQ(alhazen("render scene.pbrt").exit_code, 0);
+    EXPECT_TRUE(exists("scene.exr"));
+    write_scene("\"string filename\" \"mine.png\"");
+    EXPECT_EQ(alhazen("render scene.pbrt").exit_code, 0);
+    EXPECT_TRUE(exists("mine.png"));
+}
+
+TEST_F(Render, SizeCropAndSamples) {
+    ASSERT_EQ(alhazen("render scene.pbrt --size 40x30 --spp 2 -o a.pfm").exit_code, 0);
+    EXPECT_EQ(picture("a.pfm").size(), (Vec2i{40, 30}));
+    ASSERT_EQ(alhazen("render scene.pbrt --size 40x30 --spp 2 --crop 10,5,30,20 -o b.pfm").exit_code, 0);
+    Image whole = picture("a.pfm"), part = picture("b.pfm");
+    ASSERT_EQ(part.size(), (Vec2i{20, 15}));
+    for (int y = 0; y < 15; ++y)
+        for (int x = 0; x < 20; ++x) EXPECT_EQ(part.rgb(x, y), whole.rgb(x + 10, y + 5));
+}
+
+TEST_F(Render, QuietPrintsNothing) {
+    Outcome o = alhazen("render scene.pbrt -o a.png --quiet");
+    EXPECT_EQ(o.exit_code, 0);
+    EXPECT_EQ(o.out + o.err, "");
+}
+
+TEST_F(Render, SeedChangesTheNoiseAndThreadsDoNot) {
+    ASSERT_EQ(alhazen("render scene.pbrt -o a.pfm --threads 1").exit_code, 0);
+    ASSERT_EQ(alhazen("render scene.pbrt -o b.pfm --threads 3 --tile-size 5").exit_code, 0);
+    ASSERT_EQ(alhazen("render scene.pbrt -o c.pfm --seed 5").exit_code, 0);
+    EXPECT_EQ(file_text(path("a.pfm")), file_text(path("b.pfm")));
+    EXPECT_NE(file_text(path("a.pfm")), file_text(path("c.pfm")));
+}
+
+TEST_F(Render, CameraIntegratorColorAndSet) {
+    ASSERT_EQ(alhazen("render scene.pbrt -o back.pfm --camera back").exit_code, 0);
+    ASSERT_EQ(alhazen("render scene.pbrt -o last.pfm").exit_code, 0);
+    ASSERT_EQ(alhazen("render scene.pbrt -o front.pfm --camera front").exit_code, 0);
+    EXPECT_EQ(file_text(path("back.pfm")), file_text(path("last.pfm")));
+    EXPECT_NE(file_text(path("back.pfm")), file_text(path("front.pfm")));
+    ASSERT_EQ(alhazen("render scene.pbrt -o rgb.pfm --color rgb").exit_code, 0);
+    EXPECT_NE(file_text(path("rgb.pfm")), file_text(path("last.pfm")));
+    ASSERT_EQ(alhazen("render scene.pbrt -o ao.pfm --integrator ambientocclusion").exit_code, 0);
+    ASSERT_EQ(alhazen("render scene.pbrt -o black.pfm --set material.Clay.reflectance='0 0 0' --set "
+                      "integrator.maxdepth=1 --camera front --color rgb")
+                  .exit_code,
+              0);
+    EXPECT_EQ(picture("black.pfm").rgb(16, 12), (Vec3{0, 0, 0}));
+    EXPECT_GT(picture("front.pfm").rgb(16, 12).x, 0);
+}
+
+TEST_F(Render, StatsAreJson) {
+    ASSERT_EQ(alhazen("render scene.pbrt -o a.png --stats s.json --threads 1").exit_code, 0);
+    auto stats = nlohmann::json::parse(file_text(path("s.json")));
+    for (const char* key : {"load_seconds", "build_seconds", "render_seconds", "mrays_per_second", "peak_memory_bytes",
+                            "triangles", "warnings", "non_finite_samples"})
+        EXPECT_TRUE(stats.contains(key)) << key;
+    EXPECT_EQ(stats["rays"]["camera"], 32 * 24 * 4);
+    EXPECT_EQ(stats["samples_per_pixel"], 4);
+    EXPECT_EQ(stats["non_finite_samples"], 0);
+}
+
+TEST_F(Render, LenientRendersOnAndSaysWhatWasReplaced) {
+    write("new.pbrt", file_text(path("scene.pbrt")) + "Shape \"blob\" \"float size\" 3\n");
+    expect_error("render new.pbrt -o a.png", "new.pbrt:14:1: error: unknown shape \"blob\"");
+    EXPECT_FALSE(exists("a.png"));
+    Outcome o = alhazen("render new.pbrt -o a.png --lenient");
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_THAT(o.err, HasSubstr("new.pbrt:14:1: warning: unknown shape \"blob\""));
+    EXPECT_TRUE(exists("a.png"));
+}
+
+TEST_F(Render, ShowWithoutAScreenIsNoError) {
+    Outcome o = shell("unset DISPLAY WAYLAND_DISPLAY; " ALHAZEN_PROGRAM " render scene.pbrt -o a.png --show");
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+}
+
+TEST_F(Render, InterruptWritesTheImageSoFar) {
+    // Enough samples that it cannot be done before the signal.
+    Outcome o = shell("timeout --preserve-status -s INT 2 " ALHAZEN_PROGRAM
+                      " render scene.pbrt --spp 4000000 -o a.png --stats s.json");
+    EXPECT_EQ(o.exit_code, 130) << o.err;
+    ASSERT_TRUE(exists("a.png"));
+    EXPECT_EQ(picture("a.png").size(), (Vec2i{32, 24}));
+    EXPECT_TRUE(nlohmann::json::parse(file_text(path("s.json")))["cancelled"]);
+}
+
+TEST_F(Render, ArgumentsThatAreWrong) {
+    expect_error("render", "SCENE is required");
+    expect_error("render none.pbrt", "none.pbrt: error: no such file");
+    expect_error("render .", "error: ");
+    expect_error("render scene.pbrt -o a.gif", "cannot write \"a.gif\": the suffix must be one of .exr");
+    expect_error("render scene.pbrt -o none/a.png", "there is no folder \"none\"");
+    expect_error("render scene.pbrt --spp 0", "--spp");
+    expect_error("render scene.pbrt --spp many", "--spp");
+    expect_error("render scene.pbrt --size 10", "\"10\" is not a size; write it as 800x600");
+    expect_error("render scene.pbrt --size 0x10", "is not a size");
+    expect_error("render scene.pbrt --crop 1,2,3", "\"1,2,3\" is not a crop");
+    expect_error("render scene.pbrt --crop 0,0,100,100", "outside the film of 32 x 24 pixels");
+    expect_error("render scene.pbrt --integrator pth", "unknown integrator \"pth\" (did you mean \"path\"?)");
+    expect_error("render scene.pbrt --camera fornt", "no camera is named \"fornt\" (did you mean \"front\"?)");
+    expect_error("render scene.pbrt --seed x", "--seed");
+    expect_error("render scene.pbrt --threads -1", "--threads");
+    expect_error("render scene.pbrt --tile-size 0", "--tile-size");
+    expect_error("render scene.pbrt --color cmyk", "--color");
+    expect_error("render scene.pbrt --stats none/s.json -o a.png", "cannot write \"none/s.json\"");
+    expect_error("render scene.pbrt --set maxdepth=3", "write it as FAMILY.PARAMETER=VALUE");
+    expect_error("render scene.pbrt --set integrator.maxdept=3",
+                 "integrator \"path\" has no parameter \"maxdept\" (did you mean \"maxdepth\"?)");
+    expect_error("render scene.pbrt --set integrator.maxdepth=deep", "\"deep\" is not a value of type integer");
+    expect_error("render scene.pbrt --set material.Wax.reflectance=1", "the scene has no \"material.Wax\"");
+    expect_error("render scene.pbrt --frobnicate", "--frobnicate");
+    expect_error("rendr scene.pbrt", "rendr");
+}
+
+TEST_F(Render, ValuesOutOfRangeNameTheirPlace) {
+    write("bad.pbrt", "Integrator \"path\" \"integer maxdepth\" -1\nWorldBegin\n");
+    expect_error("render bad.pbrt", "bad.pbrt:1:19: error: parameter \"maxdepth\" is -1; it must be");
+    write("bad.pbrt", "Integrator \"path\" \"integer maxdept\" 1\nWorldBegin\n");
+    expect_error("render bad.pbrt",
+                 "unknown parameter \"maxdept\" of integrator \"path\" (did you mean \"maxdepth\"?)");
+    write("bad.pbrt", "Integrator \"path\" \"string maxdepth\" \"deep\"\nWorldBegin\n");
+    expect_error("render bad.pbrt", "parameter \"maxdepth\" is declared as string, but must be integer");
+}
+
+} // namespace
+} // namespace alhazen::testing
