@@ -56,6 +56,8 @@ std::shared_ptr<const Family> make_node(const KindList<Family>& kinds, const Tex
 void TextureSet::build(const std::vector<TextureNode>& nodes, BuildContext& context) {
     std::lock_guard lock(state_->mutex);
     context.textures = this;
+    state_->floats.clear();
+    state_->spectra.clear();
     state_->color_mode = context.color_mode;
     state_->base_folder = context.base_folder;
     state_->lenient = context.messages.lenient;
