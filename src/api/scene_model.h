@@ -1,0 +1,16 @@
+/// What a public SceneModel holds.
+#pragma once
+
+#include "alhazen/alhazen.h"
+#include "base/messages.h"
+#include "describe/scene_description.h"
+
+namespace alhazen {
+
+struct SceneModel::Content {
+    SceneDescription description;
+    bool lenient = false;
+    std::vector<Message> warnings; ///< of reading the file
+};
+
+} // namespace alhazen
