@@ -1,7 +1,7 @@
 /// What a public Picture holds.
 #pragma once
 
-#include "alhazen/alhazen.h"
+#include <alhazen/alhazen.h>
 #include "image/codec.h"
 
 namespace alhazen {

@@ -1,7 +1,7 @@
 /// What a public SceneModel holds.
 #pragma once
 
-#include "alhazen/alhazen.h"
+#include <alhazen/alhazen.h>
 #include "base/messages.h"
 #include "describe/scene_description.h"
 
