@@ -1,9 +1,9 @@
 /// Between the public types of <alhazen/alhazen.h> and the house's own.
 #pragma once
 
-#include <alhazen/alhazen.h>
 #include "base/messages.h"
 #include "describe/scene_description.h"
+#include <alhazen/alhazen.h>
 
 namespace alhazen {
 

@@ -1,8 +1,8 @@
 /// What a public Picture holds.
 #pragma once
 
-#include <alhazen/alhazen.h>
 #include "image/codec.h"
+#include <alhazen/alhazen.h>
 
 namespace alhazen {
 

@@ -1,9 +1,9 @@
 /// What a public SceneModel holds.
 #pragma once
 
-#include <alhazen/alhazen.h>
 #include "base/messages.h"
 #include "describe/scene_description.h"
+#include <alhazen/alhazen.h>
 
 namespace alhazen {
 
