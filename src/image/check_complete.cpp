@@ -37,10 +37,39 @@ void check_png(std::string_view bytes) {
     require(width * height / 8 * bits_per_pixel / 1032 <= packed, "PNG");
 }
 
-/// A block of 8 x 8 pixels takes at least a bit of the file; scans beyond any sensible number only cost time.
-void check_jpeg(std::string_view bytes) {
-    std::size_t at = 2, pixels = 0;
-    for (;;) {
+/// Huffman tables (ITU-T T.81, B.2.4.2): a byte with class and number, how many codes there are of each of 16
+/// lengths, the symbols. The decoder has room for 256 symbols and does not count them; no real table has more
+/// than 176.
+void check_huffman_tables(std::string_view tables) {
+    while (!tables.empty()) {
+        std::size_t symbols = 0;
+        for (std::size_t i = 1; i <= 16 && i < tables.size(); ++i) symbols += byte_at(tables, i);
+        if (symbols > 255 || tables.size() < 17 + symbols)
+            throw std::runtime_error("corrupt JPEG file: bad Huffman table");
+        tables.remove_prefix(17 + symbols);
+    }
+}
+
+/// The segment that starts with a marker at `at`: its bytes after the length.
+std::string_view jpeg_segment(std::string_view bytes, std::size_t at) {
+    require(bytes.size() - at >= 4, "JPEG");
+    std::size_t size = big16(bytes, at + 2);
+    if (size < 2) throw std::runtime_error("corrupt JPEG file: bad segment size");
+    require(bytes.size() - at - 2 >= size, "JPEG");
+    return bytes.substr(at + 4, size - 2);
+}
+
+/// Width times height as a frame header says.
+std::size_t jpeg_pixels(std::string_view frame) {
+    require(frame.size() >= 5, "JPEG");
+    std::size_t height = big16(frame, 1), width = big16(frame, 3);
+    check_image_size(static_cast<long long>(width), static_cast<long long>(height), 1);
+    return width * height;
+}
+
+/// Walks the segments up to the first scan; sets pixels. Returns where the scan's data begin.
+std::size_t walk_jpeg_header(std::string_view bytes, std::size_t& pixels) {
+    for (std::size_t at = 2;;) {
         require(bytes.size() - at >= 4, "JPEG");
         if (byte_at(bytes, at) != 0xff) throw std::runtime_error("corrupt JPEG file: a marker expected");
         std::uint32_t marker = byte_at(bytes, at + 1);
@@ -48,25 +77,33 @@ void check_jpeg(std::string_view bytes) {
             ++at;
             continue;
         }
-        std::size_t size = big16(bytes, at + 2);
-        require(bytes.size() - at - 2 >= size, "JPEG");
-        bool frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-        if (frame) {
-            require(size >= 8, "JPEG");
-            std::size_t height = big16(bytes, at + 5), width = big16(bytes, at + 7);
-            check_image_size(static_cast<long long>(width), static_cast<long long>(height), 1);
-            pixels = width * height;
-        }
         if (marker == 0xd9) throw std::runtime_error("corrupt JPEG file: no pixels");
-        if (size < 2) throw std::runtime_error("corrupt JPEG file: bad segment size");
-        at += size + 2;
-        if (marker == 0xda) break;
+        std::string_view segment = jpeg_segment(bytes, at);
+        bool frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+        if (frame) pixels = jpeg_pixels(segment);
+        if (marker == 0xc4) check_huffman_tables(segment);
+        at += segment.size() + 4;
+        if (marker == 0xda) return at;
     }
-    require(bytes.find("\xff\xd9", at) != std::string_view::npos, "JPEG");
+}
+
+/// A block of 8 x 8 pixels takes at least a bit of the file; scans beyond any sensible number only cost time.
+/// Behind the first scan the decoder looks for markers in its own way, so every place there that could define
+/// a table is held to be one (in coded pixels the two bytes cannot stand).
+std::string_view check_jpeg(std::string_view bytes) {
+    std::size_t pixels = 0;
+    std::size_t first_scan = walk_jpeg_header(bytes, pixels);
+    std::size_t end = bytes.find("\xff\xd9", first_scan);
+    require(end != std::string_view::npos, "JPEG");
+    bytes = bytes.substr(0, end + 2);
     require(pixels / 1024 <= bytes.size(), "JPEG");
+    for (std::size_t at = first_scan; (at = bytes.find("\xff\xc4", at)) != std::string_view::npos; at += 2)
+        check_huffman_tables(jpeg_segment(bytes, at));
     std::size_t scans = 1;
-    for (; (at = bytes.find("\xff\xda", at)) != std::string_view::npos; at += 2) ++scans;
+    for (std::size_t at = first_scan; (at = bytes.find("\xff\xda", at)) != std::string_view::npos; at += 2)
+        ++scans;
     if (scans > 256) throw std::runtime_error("corrupt JPEG file: more than 256 scans");
+    return bytes;
 }
 
 /// Run-length packets: a count and one pixel, or a count and as many pixels.
@@ -112,17 +149,21 @@ void check_bmp(std::string_view bytes) {
 
 } // namespace
 
-void check_complete(IntegerFormat format, std::string_view bytes) {
+std::string_view check_complete(IntegerFormat format, std::string_view bytes) {
     switch (format) {
     case IntegerFormat::png:
-        return check_png(bytes);
+        check_png(bytes);
+        break;
     case IntegerFormat::jpeg:
         return check_jpeg(bytes);
     case IntegerFormat::tga:
-        return check_tga(bytes);
+        check_tga(bytes);
+        break;
     case IntegerFormat::bmp:
-        return check_bmp(bytes);
+        check_bmp(bytes);
+        break;
     }
+    return bytes;
 }
 
 } // namespace alhazen

@@ -24,9 +24,10 @@ enum class IntegerFormat { png, jpeg, tga, bmp };
 Image decode_integer(IntegerFormat format, std::string_view bytes, Encoding encoding);
 std::string encode_integer(IntegerFormat format, const Image& image, const WriteOptions& options);
 
-/// Throws when the file's header promises more than its bytes hold, or a structure that would cost far more
-/// time or memory than the file's size justifies: stb takes missing bytes for zeros in some formats.
-void check_complete(IntegerFormat format, std::string_view bytes);
+/// Throws when the file's header promises more than its bytes hold, or when a structure in it would cost far
+/// more time or memory than the file's size justifies: stb takes missing bytes for zeros in some formats.
+/// Returns the part of the bytes that was checked, the only part to decode.
+std::string_view check_complete(IntegerFormat format, std::string_view bytes);
 
 /// What EXR's header says, checked before the library allocates anything by it.
 void check_exr_header(std::string_view bytes);

@@ -87,7 +87,7 @@ std::vector<std::uint8_t> to_bytes(const Image& image, Transfer transfer, std::o
 Image decode_integer(IntegerFormat format, std::string_view bytes, Encoding encoding) {
     const char* name = name_of(format);
     if (bytes.size() > INT_MAX) throw std::runtime_error(fmt::format("{} file larger than 2 GB", name));
-    check_complete(format, bytes);
+    bytes = check_complete(format, bytes);
     auto info = stb_info(bytes);
     if (!info) {
         // Asked for a size, stb does not say what is wrong; asked for pixels, it does.

@@ -1,5 +1,7 @@
 /// The implementation of stb_image and stb_image_write (Sean Barrett), compiled here once and with no
 /// warnings of theirs. What the room calls is declared in stb.h.
+#include <cstdlib>
+
 #pragma GCC diagnostic push
 #if defined(__clang__)
 #pragma GCC diagnostic ignored "-Weverything"
@@ -22,6 +24,11 @@
 #define STBI_NO_STDIO
 #define STBI_NO_LINEAR
 #define STBI_MAX_DIMENSIONS 65536
+// Memory starts as zeros: a JPEG scan may name a Huffman table that the file never defines, and then decodes
+// by whatever is there. An empty table is harmless.
+#define STBI_MALLOC(size) std::calloc(1, size)
+#define STBI_REALLOC(pointer, size) std::realloc(pointer, size)
+#define STBI_FREE(pointer) std::free(pointer)
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO

@@ -105,6 +105,14 @@ TEST(Malformed, Jpeg) {
     EXPECT_ERROR(decode_image(with(jpeg, frame + 5, "\x10\0\x7f\xff"s), ""), "truncated JPEG file");
     EXPECT_ERROR(decode_image(with(jpeg, frame, "x"), ""), "corrupt JPEG file: a marker expected");
     EXPECT_ERROR(decode_image("\xff\xd8\xff\xd9\0\0\0\0"s, ""), "corrupt JPEG file: no pixels");
+    // A table of 257 symbols: one more than the decoder has room for. The first length's count is five bytes
+    // on.
+    std::size_t table = jpeg.find("\xff\xc4");
+    ASSERT_NE(table, jpeg.npos);
+    EXPECT_ERROR(decode_image(with(jpeg, table + 5, "\xff\2"), ""), "corrupt JPEG file: bad Huffman table");
+    std::string late =
+        jpeg.substr(0, jpeg.size() - 2) + "\xff\xc4\1\x14\0"s + std::string(15, '\0') + "\xff"s;
+    EXPECT_ERROR(decode_image(late + std::string(300, '\0') + "\xff\xd9", ""), "bad Huffman table");
     std::string scans;
     for (int i = 0; i < 300; ++i) scans += "\xff\xda\0\2"s;
     EXPECT_ERROR(decode_image(jpeg.substr(0, jpeg.size() - 2) + scans + "\xff\xd9", ""),
