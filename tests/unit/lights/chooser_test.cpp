@@ -1,6 +1,7 @@
 #include <map>
 
 #include "lights/light_chooser.h"
+#include "tests/support/density_test.h"
 #include "tests/support/light_probe.h"
 #include "tests/unit/lights/test_shapes.h"
 
@@ -70,8 +71,6 @@ std::vector<LightReceiver> receivers_of(RandomScene& scene, int n) {
 }
 
 TEST_P(Choosers, ProbabilitiesSumToOneAndFrequenciesFollow) {
-    // Pearson's statistic over at most 31 choices; 70 is exceeded with probability 1e-4 by chance (seeds are
-    // fixed).
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
         RandomScene scene(seed);
         for (int i = 0; i < 28; ++i) scene.add_any();
@@ -88,18 +87,20 @@ TEST_P(Choosers, ProbabilitiesSumToOneAndFrequenciesFollow) {
                 ASSERT_FLOAT_EQ(chosen->probability, chooser->probability(at, chosen->light));
                 ++counts[chosen->light];
             }
-            double statistic = 0, rest = n, rest_expected = n;
+            std::vector<double> observed, expected;
+            double rest = n, rest_expected = n; // nothing chosen
             for (const Light* light : scene.lights) {
                 auto p = static_cast<double>(chooser->probability(at, light));
                 sum += p;
-                if (n * p < 5) continue;
-                statistic += (counts[light] - n * p) * (counts[light] - n * p) / (n * p);
-                rest -= counts[light];
-                rest_expected -= n * p;
+                observed.push_back(counts[light]);
+                expected.push_back(n * p);
+                rest -= observed.back();
+                rest_expected -= expected.back();
             }
-            if (rest_expected > 5)
-                statistic += (rest - rest_expected) * (rest - rest_expected) / rest_expected;
-            EXPECT_LT(statistic, 70);
+            observed.push_back(rest);
+            expected.push_back(rest_expected > 1e-3 * n ? rest_expected : rest);
+            EXPECT_GT(testing_support::chi_square_test(observed, expected).p_value,
+                      testing_support::p_threshold);
             EXPECT_LE(sum, 1.0001);
             EXPECT_GE(sum, GetParam() == "bvh" ? 0 : 0.9999);
         }

@@ -1,0 +1,290 @@
+/// What every light owes the integrators, whatever its kind: checked for all that the registries document.
+#include "image/codec.h"
+#include "lights/light_chooser.h"
+#include "tests/support/density_test.h"
+#include "tests/support/family.h"
+#include "tests/support/light_probe.h"
+
+namespace alhazen {
+namespace {
+
+using testing_support::p_threshold;
+
+const Bounds3 scene{{-4, -4, -4}, {4, 4, 4}};
+const Wavelengths white = Wavelengths::rgb();
+
+Vec2 random_pair(Rng& rng) {
+    return {rng.uniform(), rng.uniform()};
+}
+LightReceiver random_receiver(Rng& rng) {
+    Vec3 p = Vec3(rng.uniform(), rng.uniform(), rng.uniform()) * 8.0f - Vec3(4);
+    return {p, sample_sphere(random_pair(rng))};
+}
+Vec3 color_of_power(const Light& light, ColorMode mode) {
+    return film_color(mode, [&](const Wavelengths& lambda) { return light.power(lambda); });
+}
+
+// Both modes' lights of one description.
+using TwoModes = std::array<std::unique_ptr<Light>, 2>;
+constexpr ColorMode modes[] = {ColorMode::rgb, ColorMode::spectral};
+
+void check_sample(const Light& light, const LightReceiver& at, const LightSample& s) {
+    ASSERT_NEAR(length(s.wi), 1, 1e-5f);
+    ASSERT_TRUE(s.L.is_finite() && s.L.min() >= 0 && !s.L.is_black());
+    ASSERT_TRUE(s.pdf > 0 && std::isfinite(s.pdf));
+    ASSERT_GT(dot(normalize(s.p - at.p), s.wi), 1 - 1e-5f);
+    ASSERT_TRUE(!light.is_delta() || s.pdf == 1);
+    if (auto b = light.bounds()) {
+        Bounds3 box = b->bounds;
+        box.lo -= s.p_error + Vec3(1e-5f);
+        box.hi += s.p_error + Vec3(1e-5f);
+        ASSERT_TRUE(box.contains(s.p));
+    } else {
+        ASSERT_FALSE(scene.contains(s.p));
+        ASSERT_EQ(s.ng, Vec3());
+    }
+}
+
+void check_contract(const Light& light, const Wavelengths& lambda) {
+    const Light* all[] = {&light};
+    Rng rng(1);
+    for (const std::string& name : light_chooser_names()) {
+        auto chooser = make_light_chooser(name, all);
+        for (int i = 0; i < 200; ++i) {
+            LightReceiver at = random_receiver(rng);
+            auto s = light.sample(at, random_pair(rng), lambda);
+            if (!s) continue;
+            check_sample(light, at, *s);
+            ASSERT_GT(chooser->probability(at, &light), 0) << name;
+        }
+    }
+    ASSERT_FALSE(light.is_delta() && light.is_infinite());
+    if (!light.is_infinite()) {
+        EXPECT_TRUE(light.escaped({0, 0, 1}, lambda).is_black());
+        EXPECT_EQ(light.pdf_escaped({}, {0, 0, 1}), 0);
+    }
+    ASSERT_TRUE(light.power(lambda).is_finite() && light.power(lambda).min() >= 0);
+    EXPECT_EQ(light.bounds() ? light.bounds()->power > 0 : !light.power(white).is_black(), true);
+}
+
+// Infinite lights: what is sampled is what escaping rays see, and as often as claimed.
+void check_escaped(const Light& light, const Wavelengths& lambda) {
+    Rng rng(2);
+    int misplaced = 0; // on the edge of a texel a direction may be rounded into the next one
+    for (int i = 0; i < 5000; ++i) {
+        auto s = light.sample({}, random_pair(rng), lambda);
+        if (!s) continue;
+        bool same = light.escaped(s->wi, lambda) == s->L &&
+                    std::abs(light.pdf_escaped({}, s->wi) - s->pdf) <= 1e-3f * s->pdf;
+        misplaced += !same;
+    }
+    EXPECT_LE(misplaced, 10);
+    auto direction = [](Vec2 p) {
+        float r = safe_sqrt(1 - p.y * p.y);
+        return Vec3{r * std::cos(p.x), r * std::sin(p.x), p.y};
+    };
+    // Azimuth and height z: an area of the cylinder is the solid angle.
+    auto sample = [&](Vec2 u) {
+        auto s = light.sample({}, u, lambda);
+        if (!s) return Vec2{-100, 0};
+        float phi = std::atan2(s->wi.y, s->wi.x);
+        return Vec2{phi < 0 ? phi + 2 * pi : phi, s->wi.z};
+    };
+    auto density = [&](Vec2 p) { return static_cast<double>(light.pdf_escaped({}, direction(p))); };
+    EXPECT_GT(testing_support::chi_square_2d(sample, density, {0, 2 * static_cast<double>(pi), -1, 1}, 100000,
+                                             16, 32),
+              p_threshold);
+}
+
+// The flux through a sphere around the light, or that of escaping rays through the scene's sphere.
+void check_power(const Light& light) {
+    auto power = static_cast<double>(light.power(white)[0]);
+    auto bounds = light.bounds();
+    if (bounds) {
+        bool is_point = bounds->bounds.diagonal() == Vec3();
+        double flux = is_point ? flux_through_sphere(light, bounds->bounds.lo, 1, white, 400, 1)
+                               : flux_through_sphere(light, bounds->bounds.centroid(), 20, white, 60, 8);
+        EXPECT_NEAR(flux / power, 1, 0.02);
+        return;
+    }
+    // The disk seen from each direction has an area of 48 pi.
+    double sum = 0;
+    constexpr int side = 256;
+    if (light.is_delta()) {
+        sum = static_cast<double>(light.sample({}, {}, white)->L[0]);
+    } else {
+        for (int i = 0; i < side * side; ++i) {
+            Vec3 d = sample_sphere(
+                {(static_cast<float>(i % side) + 0.5f) / side, (static_cast<float>(i / side) + 0.5f) / side});
+            sum +=
+                static_cast<double>(light.escaped(d, white)[0]) * 4 * static_cast<double>(pi) / (side * side);
+        }
+    }
+    EXPECT_NEAR(sum * 48 * static_cast<double>(pi) / power, 1, 0.01);
+}
+
+void check_light(const TwoModes& lights) {
+    for (std::size_t i = 0; i < 2; ++i) {
+        lights[i]->prepare(scene);
+        check_contract(*lights[i], modes[i] == ColorMode::rgb ? white : Wavelengths::sample_visible(0.3f));
+        if (lights[i]->is_infinite())
+            check_escaped(*lights[i], modes[i] == ColorMode::rgb ? white : Wavelengths::sample_visible(0.3f));
+    }
+    check_power(*lights[0]);
+    expect_color(color_of_power(*lights[1], ColorMode::spectral), color_of_power(*lights[0], ColorMode::rgb),
+                 0.01f);
+}
+
+TEST(LightConformance, EveryDocumentedLight) {
+    for (const Matrix4& world : {Matrix4{}, Matrix4::translate({1, 0, 2}) * Matrix4::rotate(40, {1, 2, 3})})
+        for (const Kind<Light>& kind : light_kinds().all()) {
+            std::vector<Example> examples = kind.doc().examples;
+            examples.insert(examples.begin(), Example{"defaults", {}});
+            for (const Example& example : examples) {
+                SCOPED_TRACE(kind.name + ", " + example.name);
+                TwoModes lights;
+                for (std::size_t i = 0; i < 2; ++i)
+                    lights[i] = make_light(kind.name, example.parameters, {modes[i], world});
+                ASSERT_TRUE(lights[0] && lights[1]);
+                check_light(lights);
+            }
+        }
+}
+
+TEST(LightConformance, EnvironmentImagesOfBothMappings) {
+    auto folder = std::filesystem::temp_directory_path() / "alhazen_conformance_lights";
+    std::filesystem::create_directories(folder);
+    for (Vec2i size : {Vec2i{16, 16}, Vec2i{16, 8}}) {
+        Image image = Image::rgb_image(size.x, size.y);
+        Rng rng(9);
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                image.set_rgb(x, y,
+                              Vec3(rng.uniform(), rng.uniform(), rng.uniform()) *
+                                  (x == 3 && y == 3 ? 50.0f : 1.0f));
+        write_image(folder / "sky.pfm", image);
+        TwoModes lights;
+        for (std::size_t i = 0; i < 2; ++i)
+            lights[i] = make_light("infinite", {make_string("filename", "sky.pfm")},
+                                   {modes[i], Matrix4::rotate(40, {1, 2, 3}), folder});
+        ASSERT_TRUE(lights[0] && lights[1]);
+        check_light(lights);
+    }
+    std::filesystem::remove_all(folder);
+}
+
+std::vector<std::unique_ptr<Shape>> shapes_to_light() {
+    std::vector<Vec3> corners{{-1, -1, 0}, {1, -1, 0.3f}, {1, 1, 0}, {-1, 1, 0.4f}};
+    auto points = [&](std::vector<int> order) {
+        std::vector<Vec3> p;
+        for (int i : order) p.push_back(corners[static_cast<std::size_t>(i)]);
+        return make_array<Vec3>("P", ValueType::point3, p);
+    };
+    std::vector<Node> nodes{
+        make_node("sphere", {make_float("radius", 0.7f)}),
+        make_node("disk", {make_float("radius", 1.2f), make_float("innerradius", 0.3f)}),
+        make_node("cylinder", {make_float("radius", 0.5f)}),
+        make_node("trianglemesh",
+                  {points({0, 1, 2, 3}), make_array<int>("indices", ValueType::integer, {0, 1, 2, 0, 2, 3})}),
+        make_node("bilinearmesh", {points({0, 1, 3, 2})})};
+    std::vector<std::unique_ptr<Shape>> shapes;
+    LightSetting place{ColorMode::rgb, Matrix4::translate({0.5f, 0, 1}) * Matrix4::rotate(130, {1, 1, 0})};
+    for (const Node& node : nodes) shapes.push_back(build_or_fail(shape_kinds(), node, place));
+    return shapes;
+}
+
+// The nearest point of the shape along the ray.
+std::optional<Hit> trace(const Shape& shape, Ray ray) {
+    std::optional<Hit> nearest;
+    for (std::uint32_t i = 0; i < shape.primitive_count(); ++i) {
+        Intersection found;
+        if (!shape.intersect(ray, i, found)) continue;
+        nearest = shape.surface(ray, i, found);
+        nearest->primitive = i;
+        ray.tmax = found.t;
+    }
+    return nearest;
+}
+
+std::vector<std::unique_ptr<Light>> attach_all(const AreaLight& description, const Shape& shape) {
+    std::vector<std::unique_ptr<Light>> lights;
+    for (std::uint32_t i = 0; i < shape.primitive_count(); ++i)
+        lights.push_back(description.attach(shape, i));
+    return lights;
+}
+
+struct Tally {
+    double sum = 0, squares = 0;
+    void add(double v) {
+        sum += v;
+        squares += v * v;
+    }
+};
+
+// Adds what a sample gives when nothing hides it; counts those that rays see otherwise.
+void tally_sample(const Shape& shape, const Light& light, const LightReceiver& at, Vec2 u, Tally& tally,
+                  int& unlike) {
+    auto s = light.sample(at, u, white);
+    if (!s || dot(s->wi, at.ns) <= 0) return;
+    auto hit = trace(shape, {at.p, s->wi, infinity, 0});
+    float far = hit ? length(hit->p - s->p) : infinity;
+    if (far > 1e-3f * length(s->p - at.p)) return; // in the shadow of another part
+    bool same_density = std::abs(light.pdf_hit(at, *hit, s->wi) - s->pdf) <= 0.02f * s->pdf;
+    unlike += !same_density || !(light.emitted(*hit, white) == s->L);
+    tally.add(static_cast<double>(s->L[0] * dot(s->wi, at.ns) / s->pdf));
+}
+
+// Sampling the lights, with shadow rays, against looking into all directions.
+void compare_with_brute_force(const Shape& shape, const std::vector<std::unique_ptr<Light>>& lights) {
+    Rng rng(4);
+    Vec3 middle = shape.bounds(0).centroid();
+    for (int k = 0; k < 3; ++k) {
+        Vec3 away = sample_sphere(random_pair(rng));
+        LightReceiver at{middle + away * (2 + rng.uniform()), {}};
+        at.ns = normalize(sample_sphere(random_pair(rng)) * 0.5f - away);
+        Tally sampled, looked;
+        int unlike = 0;
+        constexpr int side = 100;
+        for (int i = 0; i < side * side; ++i) {
+            Vec2 u{(static_cast<float>(i % side) + rng.uniform()) / side,
+                   (static_cast<float>(i / side) + rng.uniform()) / side};
+            Vec3 d = Frame::from_z(at.ns).to_world(sample_cosine_hemisphere(u));
+            if (auto hit = trace(shape, {at.p, d, infinity, 0}))
+                looked.add(static_cast<double>(lights[hit->primitive]->emitted(*hit, white)[0] * pi));
+            for (const auto& light : lights) tally_sample(shape, *light, at, u, sampled, unlike);
+        }
+        EXPECT_LE(unlike, side * side / 200);
+        // Five standard deviations: a false alarm in two million (these squares are upper bounds of
+        // variances).
+        EXPECT_NEAR(sampled.sum, looked.sum, 5 * std::sqrt(sampled.squares + looked.squares));
+    }
+}
+
+TEST(LightConformance, EveryDocumentedAreaLightOnEveryShape) {
+    int number = 0;
+    for (const auto& shape : shapes_to_light()) {
+        ASSERT_NE(shape, nullptr);
+        ++number;
+        for (const Kind<AreaLight>& kind : area_light_kinds().all())
+            for (const Example& example : kind.doc().examples) {
+                SCOPED_TRACE(kind.name + ", " + example.name + ", shape " + std::to_string(number));
+                TwoModes first;
+                for (std::size_t i = 0; i < 2; ++i) {
+                    auto description = make_area_light(example.parameters, {modes[i]});
+                    ASSERT_TRUE(description);
+                    auto lights = attach_all(*description, *shape);
+                    for (const auto& light : lights)
+                        check_contract(
+                            *light, modes[i] == ColorMode::rgb ? white : Wavelengths::sample_visible(0.3f));
+                    if (modes[i] == ColorMode::rgb) compare_with_brute_force(*shape, lights);
+                    first[i] = std::move(lights[0]);
+                }
+                if (!first[0]->bounds()->two_sided) check_power(*first[0]);
+                expect_color(color_of_power(*first[1], ColorMode::spectral),
+                             color_of_power(*first[0], ColorMode::rgb), 0.01f);
+            }
+    }
+}
+
+} // namespace
+} // namespace alhazen
