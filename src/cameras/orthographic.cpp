@@ -13,6 +13,7 @@ class OrthographicCamera final : public FlatCamera {
         f.about("Parallel rays, as in technical drawings: distant things keep their size.");
         describe_flat(f);
         describe_common(f);
+        f.example("small", {make_array("screenwindow", ValueType::real, std::vector<float>{-2, 2, -1, 1})});
     }
     void finish(const Node& node, BuildContext& context) { finish_flat(node, context); }
 

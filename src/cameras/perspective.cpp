@@ -24,6 +24,8 @@ class PerspectiveCamera final : public FlatCamera {
             .unit("degrees");
         describe_flat(f);
         describe_common(f);
+        f.example("portrait",
+                  {make_float("fov", 30), make_float("lensradius", .05f), make_float("focaldistance", 3)});
     }
     void finish(const Node& node, BuildContext& context) {
         if (!finish_flat(node, context)) return;

@@ -24,6 +24,7 @@ class SphericalCamera final : public FlatCamera {
         f.field("mapping", &SphericalCamera::mapping, "how the sphere lies on the picture");
         describe_flat(f);
         describe_common(f);
+        f.example("world_map", {make_string("mapping", "equirectangular")});
     }
     void finish(const Node& node, BuildContext& context) {
         finish_flat(node, context);

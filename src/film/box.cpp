@@ -12,6 +12,7 @@ struct BoxFilter final : Filter {
         f.about("The mean over a rectangle; with the default radii, over the pixel's own square.");
         f.field("xradius", &BoxFilter::xradius, "half of the width").in(1e-3, 64).unit("pixels");
         f.field("yradius", &BoxFilter::yradius, "half of the height").in(1e-3, 64).unit("pixels");
+        f.example("wide", {make_float("xradius", 2), make_float("yradius", 1)});
     }
     float eval(Vec2 p) const override {
         return std::abs(p.x) <= xradius && std::abs(p.y) <= yradius ? 1.0f : 0.0f;

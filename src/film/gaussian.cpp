@@ -15,6 +15,7 @@ struct GaussianFilter final : SeparableFilter<GaussianFilter> {
         f.about("A bell curve, lowered so that it reaches 0 at the radius. The default.");
         describe_radius(f);
         f.field("sigma", &GaussianFilter::sigma, "standard deviation").in(1e-3, 64).unit("pixels");
+        f.example("soft", {make_float("xradius", 3), make_float("yradius", 3), make_float("sigma", 1)});
     }
     float curve(float x, float r) const {
         return std::max(0.0f, gaussian(x, 0, sigma) - gaussian(r, 0, sigma));

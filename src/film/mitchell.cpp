@@ -17,6 +17,7 @@ struct MitchellFilter final : SeparableFilter<MitchellFilter> {
         describe_radius(f);
         f.field("B", &MitchellFilter::b, "blur").in(-2, 2).otherwise("1/3");
         f.field("C", &MitchellFilter::c, "ringing").in(-2, 2).otherwise("1/3");
+        f.example("catmull_rom", {make_float("B", 0), make_float("C", 0.5f)});
     }
     float curve(float x, float r) const { return mitchell(2 * x / r, b, c); }
 };

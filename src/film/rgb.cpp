@@ -115,6 +115,9 @@ void RgbFilm::describe(Fields<RgbFilm>& f) {
         .unit("K");
     f.field("transfer", &F::transfer,
             "how 8-bit files store values: by the sRGB curve, or linear, as they are (like MATLAB's imshow)");
+    f.example("square", {make_integer("xresolution", 64), make_integer("yresolution", 64)});
+    f.example("middle",
+              {make_array("cropwindow", ValueType::real, std::vector<float>{.25f, .75f, .25f, .75f})});
 }
 
 bool RgbFilm::check_counts(const Node& node, BuildContext& context) const {

@@ -15,6 +15,7 @@ struct SincFilter final : SeparableFilter<SincFilter> {
         describe_radius(f);
         f.field("tau", &SincFilter::tau, "width of the window's main lobe, in lobes of the sinc")
             .in(1e-2, 64);
+        f.example("narrow", {make_float("xradius", 2), make_float("yradius", 2), make_float("tau", 2)});
     }
     float curve(float x, float r) const { return windowed_sinc(x, r, tau); }
 };

@@ -15,6 +15,7 @@ struct TriangleFilter final : Filter {
             .in(1e-3, 64)
             .unit("pixels");
         f.field("yradius", &TriangleFilter::yradius, "where it reaches 0, down").in(1e-3, 64).unit("pixels");
+        f.example("tight", {make_float("xradius", 1), make_float("yradius", 1)});
     }
     float eval(Vec2 p) const override {
         return std::max(0.0f, xradius - std::abs(p.x)) * std::max(0.0f, yradius - std::abs(p.y));

@@ -125,6 +125,8 @@ class HaltonSampler final : public CountedSampler {
         describe_count(f);
         f.field("randomization", &HaltonSampler::randomization, "how the points are made random");
         describe_seed(f);
+        f.example("none", {make_string("randomization", "none")});
+        f.example("owen", {make_string("randomization", "owen")});
     }
     void finish(const Node&, BuildContext&) { prepare({1, 1}, pixelsamples, 0); }
 
@@ -148,9 +150,17 @@ class HaltonSampler final : public CountedSampler {
     /// The first two dimensions; the digits that name the pixel are taken off.
     Vec2 pixel2(SampleState& state) const override {
         std::uint64_t a = state.index / scales_[0], b = state.index / scales_[1];
-        if (randomization == HaltonRandomization::none) return {radical_inverse(a, 2), radical_inverse(b, 3)};
-        return {scrambled(a, 0, sub_key(seed_ ^ column_salt, static_cast<std::uint32_t>(state.pixel.x))),
-                scrambled(b, 1, sub_key(seed_ ^ row_salt, static_cast<std::uint32_t>(state.pixel.y)))};
+        std::uint64_t column = sub_key(seed_ ^ column_salt, static_cast<std::uint32_t>(state.pixel.x));
+        std::uint64_t row = sub_key(seed_ ^ row_salt, static_cast<std::uint32_t>(state.pixel.y));
+        switch (randomization) {
+        case HaltonRandomization::none:
+            return {radical_inverse(a, 2), radical_inverse(b, 3)};
+        case HaltonRandomization::permutedigits:
+            return {shifted(a, 0, column), shifted(b, 1, row)};
+        case HaltonRandomization::owen:
+            break;
+        }
+        return {scrambled(a, 0, column), scrambled(b, 1, row)};
     }
     void prepare(Vec2i resolution, int samples_per_pixel, std::uint64_t seed_of_render) override {
         pixelsamples = samples_per_pixel;
@@ -172,6 +182,17 @@ class HaltonSampler final : public CountedSampler {
     }
 
   private:
+    // Every digit turned by an amount of its own that the key chooses: the digits that are left within a
+    // pixel are few, and alike in all pixels, so that each column and row needs an order of its own.
+    static float shifted(std::uint64_t index, std::uint32_t dimension, std::uint64_t key) {
+        const std::uint32_t base = primes[dimension];
+        return permuted_radical_inverse(index, base, digit_counts[dimension],
+                                        [=](int, std::uint32_t digit, std::uint64_t) mutable {
+                                            auto turn = static_cast<std::uint32_t>(key % base);
+                                            key /= base;
+                                            return digit + turn < base ? digit + turn : digit + turn - base;
+                                        });
+    }
     float coordinate(const SampleState& state, std::uint32_t dimension) const {
         std::uint64_t key = sub_key(seed_, dimension);
         if (dimension >= halton_dimensions)

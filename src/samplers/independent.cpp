@@ -15,6 +15,7 @@ class IndependentSampler final : public CountedSampler {
                 "samplers.");
         describe_count(f);
         describe_seed(f);
+        f.example("seeded", {make_integer("seed", 7)});
     }
 
     SampleState start(Vec2i pixel, std::uint32_t sample) const override {

@@ -19,6 +19,9 @@ class PaddedSobolSampler final : public CountedSampler {
         describe_count(f);
         f.field("randomization", &PaddedSobolSampler::randomization, "how the points are made random");
         describe_seed(f);
+        f.example("none", {make_string("randomization", "none")});
+        f.example("permutedigits", {make_string("randomization", "permutedigits")});
+        f.example("owen", {make_string("randomization", "owen")});
     }
     void finish(const Node& node, BuildContext& context) { warn_unless_power_of_two(node, context); }
 

@@ -80,6 +80,9 @@ class SobolSampler final : public CountedSampler {
         describe_count(f);
         f.field("randomization", &SobolSampler::randomization, "how the points are made random");
         describe_seed(f);
+        f.example("none", {make_string("randomization", "none")});
+        f.example("permutedigits", {make_string("randomization", "permutedigits")});
+        f.example("owen", {make_string("randomization", "owen")});
     }
     void finish(const Node& node, BuildContext& context) { warn_unless_power_of_two(node, context); }
 

@@ -21,6 +21,7 @@ class StratifiedSampler final : public CountedSampler {
         f.field("ysamples", &StratifiedSampler::ysamples, "cells above each other").in(1, 4096);
         f.field("jitter", &StratifiedSampler::jitter, "a random place in each cell instead of its centre");
         describe_seed(f);
+        f.example("tall", {make_integer("xsamples", 2), make_integer("ysamples", 8)});
     }
 
     int samples_per_pixel() const override { return xsamples * ysamples; }
