@@ -135,7 +135,7 @@ void PbrtBuilder::close_block(OpenBlock::Kind kind, std::string_view directive, 
                 place, "ObjectEnd in an imported file; expected it in the file that has the ObjectBegin");
         else
             messages_.add_error(
-                place, fmt::format("{} without a {}", directive,
+                place, fmt::format("{} without an {}", directive,
                                    kind == OpenBlock::Kind::object ? "ObjectBegin" : "AttributeBegin"));
         return;
     }

@@ -59,7 +59,8 @@ ValueType find_type(const std::string& word, const Place& place, Messages& messa
         if (old->now == "rgb") return ValueType::rgb;
     }
     std::vector<std::string> known;
-    for (const TypeWord& w : type_words) known.emplace_back(w.word);
+    for (const TypeWord& w : type_words)
+        if (w.word == type_name(w.type)) known.emplace_back(w.word);
     throw SyntaxError(
         place, fmt::format("unknown parameter type \"{}\"{}", printable(word), did_you_mean(word, known)));
 }
@@ -93,8 +94,8 @@ std::string_view wanted(ValueType type) {
     }
 }
 
-[[noreturn]] void throw_unexpected(const PbrtTokenizer& tokens, const PbrtToken& token,
-                                   const Declaration& d) {
+[[noreturn]] void throw_unexpected(PbrtTokenizer& tokens, const PbrtToken& token, const Declaration& d) {
+    tokens.put_back(token); // it may be the directive to go on at
     throw SyntaxError(tokens.place(token), fmt::format("expected {} for {}, found {}", wanted(d.type),
                                                        d.text(), describe_token(token)));
 }

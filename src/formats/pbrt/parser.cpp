@@ -39,7 +39,9 @@ Place PbrtParser::parse(std::string_view text, std::shared_ptr<const std::string
 
 void PbrtParser::read_directive(const PbrtToken& word) {
     Place place = tokens().place(word);
-    if (word.kind != Kind::word)
+    // Directives begin with a letter; a number is a value too many.
+    bool is_name = word.kind == Kind::word && (word.text[0] < '+' || word.text[0] > '9');
+    if (!is_name)
         throw SyntaxError(std::move(place),
                           fmt::format("expected a directive, found {}", describe_token(word)));
     if (const auto* entry = DirectiveTable::find(word.text)) {
@@ -72,11 +74,15 @@ void PbrtParser::skip_to_directive() {
     }
 }
 
+void PbrtParser::fail_at(const PbrtToken& token, const std::string& text) {
+    tokens().put_back(token);
+    throw SyntaxError(tokens().place(token), text);
+}
+
 std::string PbrtParser::string(std::string_view what) {
     PbrtToken token = tokens().next();
     if (token.kind != Kind::string)
-        throw SyntaxError(tokens().place(token),
-                          fmt::format("expected {} in quotes, found {}", what, describe_token(token)));
+        fail_at(token, fmt::format("expected {} in quotes, found {}", what, describe_token(token)));
     return tokens().string(token);
 }
 
@@ -86,8 +92,8 @@ std::array<double, n> PbrtParser::numbers(std::string_view directive) {
     for (std::size_t i = 0; i < n; ++i) {
         PbrtToken token = tokens().next();
         if (token.kind != Kind::word || DirectiveTable::find(token.text))
-            throw SyntaxError(tokens().place(token), fmt::format("{} needs {} numbers; found {} after {}",
-                                                                 directive, n, describe_token(token), i));
+            fail_at(token, fmt::format("{} needs {} numbers; found {} after {}", directive, n,
+                                       describe_token(token), i));
         values[i] = tokens().number<double>(token);
     }
     return values;
@@ -101,14 +107,13 @@ template std::array<double, 9> PbrtParser::numbers(std::string_view);
 std::array<double, 16> PbrtParser::matrix(std::string_view directive) {
     PbrtToken open = tokens().next();
     if (open.kind != Kind::open)
-        throw SyntaxError(tokens().place(open), fmt::format("{} needs 16 numbers in brackets; found {}",
-                                                            directive, describe_token(open)));
+        fail_at(open,
+                fmt::format("{} needs 16 numbers in brackets; found {}", directive, describe_token(open)));
     auto values = numbers<16>(directive);
     PbrtToken close = tokens().next();
     if (close.kind != Kind::close)
-        throw SyntaxError(tokens().place(close),
-                          fmt::format("{} needs 16 numbers in brackets; found {} after 16", directive,
-                                      describe_token(close)));
+        fail_at(close, fmt::format("{} needs 16 numbers in brackets; found {} after 16", directive,
+                                   describe_token(close)));
     return values;
 }
 
@@ -152,12 +157,11 @@ void PbrtParser::option(Place place) {
     } else if (token.kind == Kind::word && !DirectiveTable::find(token.text)) {
         value.values = std::vector<float>{tokens().number<float>(token)};
     } else {
-        throw SyntaxError(value.place, fmt::format("expected a value for the option \"{}\", found {}",
-                                                   printable(name), describe_token(token)));
+        fail_at(token, fmt::format("expected a value for the option \"{}\", found {}", printable(name),
+                                   describe_token(token)));
     }
     if (bracketed && (token = tokens().next()).kind != Kind::close)
-        throw SyntaxError(tokens().place(token),
-                          fmt::format("expected \"]\" after one value, found {}", describe_token(token)));
+        fail_at(token, fmt::format("expected \"]\" after one value, found {}", describe_token(token)));
     builder_.option(name, std::move(value), std::move(place));
 }
 

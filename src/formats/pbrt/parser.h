@@ -37,6 +37,8 @@ class PbrtParser {
     void import(const std::string& name, Place place);
 
     PbrtTokenizer& tokens() { return *open_.back().tokens; }
+    /// Throws SyntaxError at the token, which stays the next: it may be the directive to go on at.
+    [[noreturn]] void fail_at(const PbrtToken& token, const std::string& text);
     /// A string in quotes; what it is says the message when there is something else.
     std::string string(std::string_view what);
     template <std::size_t n>

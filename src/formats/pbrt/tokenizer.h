@@ -39,6 +39,11 @@ class PbrtTokenizer {
     /// behind the bad part can be read on).
     PbrtToken next();
     const PbrtToken& peek();
+    /// Makes token, the last that next() gave, the next again.
+    void put_back(const PbrtToken& token) {
+        ahead_ = token;
+        has_ahead_ = true;
+    }
 
     /// Appends the numbers that follow, up to the first thing that is not one. Must not be called between
     /// peek and next. T: float, double, int. Throws SyntaxError at a malformed or too large number.
