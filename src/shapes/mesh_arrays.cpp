@@ -38,7 +38,7 @@ void MeshChecks::indices(const std::vector<int>& indices, int corners, std::stri
                          std::size_t vertices) const {
     if (indices.empty()) {
         error(fmt::format(
-            "there are no {}s; the parameter \"integer indices\" gives them, and may be left out only "
+            "there are no {}; the parameter \"integer indices\" gives them, and may be left out only "
             "with exactly {} vertices (there are {})",
             face, corners, vertices));
         return;
