@@ -40,7 +40,7 @@ void MeshChecks::indices(const std::vector<int>& indices, int corners, std::stri
         error(fmt::format(
             "there are no {}; the parameter \"integer indices\" gives them, and may be left out only "
             "with exactly {} vertices (there are {})",
-            face, corners, vertices));
+            face == "patch" ? "patches" : "triangles", corners, vertices));
         return;
     }
     if (indices.size() % static_cast<std::size_t>(corners) != 0)
