@@ -70,7 +70,7 @@ inline constexpr std::uint64_t column_salt = 0xbb67ae8584caa73bu, row_salt = 0x3
 
 /// Smallest b with 2^b >= n; n > 0.
 inline int log2_ceil(int n) {
-    return std::bit_width(static_cast<unsigned>(n) - 1);
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(n) - 1));
 }
 
 /// Where i goes in a random order of 0 ... n - 1 that key chooses (i < n): a bijection on the next power of
@@ -78,7 +78,7 @@ inline int log2_ceil(int n) {
 /// (the idea is Kensler's 2013, "Correlated multi-jittered sampling").
 inline std::uint32_t permuted_index(std::uint32_t i, std::uint32_t n, std::uint64_t key) {
     if (n <= 1) return 0;
-    const int bits = std::bit_width(n - 1);
+    const int bits = static_cast<int>(std::bit_width(n - 1));
     const std::uint32_t mask = bits == 32 ? ~0u : (1u << bits) - 1;
     const int shift = std::max(1, bits / 2);
     const std::uint64_t k1 = mix_bits(key), k2 = mix_bits(key ^ 0x6a09e667f3bcc909u);

@@ -72,7 +72,7 @@ class ZSobolSampler final : public CountedSampler {
         seed_ = full_seed(seed_of_render);
         log2_samples_ = log2_ceil(samples_per_pixel);
         int levels = log2_ceil(std::max({resolution.x, resolution.y, 1}));
-        digits_ = std::min(levels + (log2_samples_ + 1) / 2, 32);
+        end_ = std::min(2 * levels + log2_samples_, 60);
     }
 
   private:
@@ -80,25 +80,36 @@ class ZSobolSampler final : public CountedSampler {
     std::uint64_t dimension_key(const SampleState& state) const {
         return sub_key(seed_, state.dimension + (std::uint64_t{state.sample >> log2_samples_} << 32));
     }
-    // The index with each base-4 digit replaced according to an order that the digits above it choose. A
-    // count that is no power of four leaves one binary digit at the end.
+    // The index with each base-4 digit replaced according to an order that the digits above it choose. One
+    // hash serves two digits: it holds an order for the upper one, and for the lower one an order for each
+    // value of the upper. A count that is no power of four leaves one binary digit at the end.
     std::uint64_t shuffled(std::uint64_t index, std::uint64_t key) const {
         const int odd = log2_samples_ & 1;
-        std::uint64_t result = 0;
-        for (int i = odd; i < digits_; ++i) {
-            const int shift = 2 * i - odd;
-            const std::uint64_t above = shift + 2 < 64 ? index >> (shift + 2) : 0;
-            const std::uint64_t h = mix_bits((above + (std::uint64_t{static_cast<unsigned>(i)} << 58)) ^ key);
-            const std::uint8_t order = orders_of_four[((h >> 32) * 24) >> 32];
-            const std::uint64_t digit = (index >> shift) & 3;
-            result |= static_cast<std::uint64_t>((order >> (2 * digit)) & 3) << shift;
+        std::uint64_t result = odd ? (index ^ mix_bits((index >> 1) ^ key)) & 1 : 0;
+        for (int shift = odd; shift < end_; shift += 4) {
+            const std::uint64_t above = shift + 4 < 64 ? index >> (shift + 4) : 0;
+            const std::uint64_t h = node_hash(above ^ key, shift);
+            const std::uint64_t upper = (index >> (shift + 2)) & 3, lower = (index >> shift) & 3;
+            result |= reordered(h, upper) << (shift + 2);
+            result |= reordered(h >> (12 + 12 * upper), lower) << shift;
         }
-        if (odd) result |= (index ^ mix_bits((index >> 1) ^ key)) & 1;
         return result;
+    }
+    // mix_bits less what a key that is mixed already makes superfluous.
+    static std::uint64_t node_hash(std::uint64_t v, int level) {
+        v = (v + static_cast<std::uint64_t>(level)) * 0xbf58476d1ce4e5b9u;
+        v ^= v >> 32;
+        v *= 0x94d049bb133111ebu;
+        return v ^ (v >> 29);
+    }
+    // Where the order that the lowest 12 bits choose puts a digit.
+    static std::uint64_t reordered(std::uint64_t bits, std::uint64_t digit) {
+        const unsigned order = orders_of_four[((bits & 0xfff) * 24) >> 12];
+        return (order >> (2 * digit)) & 3;
     }
 
     int log2_samples_ = 4;
-    int digits_ = 2;
+    int end_ = 4; ///< bits above this are 0 in every index
     std::uint64_t seed_ = full_seed(0);
 };
 
