@@ -24,19 +24,19 @@ const E* single_value(const Parameter& p, std::string_view expected, BuildContex
 } // namespace
 
 void report_wrong_type(const Parameter& p, std::string_view expected, BuildContext& context) {
-    context.messages.add_error(p.place, fmt::format("parameter \"{}\" is declared as {}, but must be {}", p.name,
-                                                    type_name(p.type), expected));
+    context.messages.add_error(p.place, fmt::format("parameter \"{}\" is declared as {}, but must be {}",
+                                                    p.name, type_name(p.type), expected));
 }
 
 void report_wrong_count(const Parameter& p, std::string_view expected, BuildContext& context) {
-    context.messages.add_error(
-        p.place, fmt::format("parameter \"{}\" has {} values, but must have {}", p.name, p.count(), expected));
+    context.messages.add_error(p.place, fmt::format("parameter \"{}\" has {} values, but must have {}",
+                                                    p.name, p.count(), expected));
 }
 
-void report_unknown_choice(const Parameter& p, const std::string& value, const std::vector<std::string>& choices,
-                           BuildContext& context) {
-    context.messages.add_error(p.place, fmt::format("parameter \"{}\" is \"{}\", which is not known{}", p.name,
-                                                    value, did_you_mean(value, choices)));
+void report_unknown_choice(const Parameter& p, const std::string& value,
+                           const std::vector<std::string>& choices, BuildContext& context) {
+    context.messages.add_error(p.place, fmt::format("parameter \"{}\" is \"{}\", which is not known{}",
+                                                    p.name, value, did_you_mean(value, choices)));
 }
 
 std::string number_text(double value) {
