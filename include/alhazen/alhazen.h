@@ -181,8 +181,9 @@ struct RenderRequest {
     ColorComputation color = ColorComputation::automatic;
     /// Single parameters: "integrator.maxdepth=3", "material.clay.reflectance=.5 .4 .3".
     std::vector<std::string> overrides{};
-    /// Called a few times a second, by one thread at a time but not always the same one. Return false to
-    /// stop: the pass in hand, of about a second, is finished, and the picture has the samples up to then.
+    /// Called up to ten times a second and after each pass, by one thread at a time but not always the same
+    /// one. Return false to stop: the pass in hand, of about a second, is finished, and the picture has the
+    /// samples up to then.
     std::function<bool(const RenderProgress&)> progress{};
 };
 

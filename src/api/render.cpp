@@ -1,7 +1,6 @@
 #include "render/renderer.h"
 
 #include <exception>
-#include <mutex>
 
 #include "api/convert.h"
 #include "api/picture.h"
@@ -48,8 +47,12 @@ class Watcher {
 
   private:
     void tell(const Progress& p) {
-        // Once told to stop, the callback is left alone.
-        if (stop_) return;
+        // Once told to stop, the callback is left alone; and the renderer speaks after every tile, too often
+        // to listen.
+        bool pass_is_finished = p.samples_done != last_samples_;
+        if (stop_ || (!pass_is_finished && p.seconds - last_seconds_ < 0.1)) return;
+        last_samples_ = p.samples_done;
+        last_seconds_ = p.seconds;
         try {
             stop_ =
                 !request_.progress({p.fraction, p.samples_done, p.samples_total, p.seconds, p.seconds_left});
@@ -63,6 +66,8 @@ class Watcher {
     RenderWatch watch_;
     std::atomic<bool> stop_{false};
     std::exception_ptr thrown_;
+    int last_samples_ = 0;
+    double last_seconds_ = 0;
 };
 
 Picture render_description(SceneDescription description, bool lenient, const std::vector<Message>& warnings,
