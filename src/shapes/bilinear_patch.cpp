@@ -1,5 +1,7 @@
 #include "shapes/bilinear_patch.h"
 
+#include <limits>
+
 namespace alhazen {
 
 Vec3d BilinearPatch::normal(double u, double v) const {
@@ -68,7 +70,11 @@ bool BilinearPatch::hit_on_line(Vec3d o, Vec3d d, double u, double tmax, Hit& hi
     Vec3d n = cross(d, along);
     double scale = 1 / dot(n, n);
     double v = dot(cross(from, d), n) * scale, t = dot(cross(from, along), n) * scale;
-    if (!(v >= -slack && v <= 1 + slack) || !(t > 0 && t < tmax)) return false;
+    // A ray that leaves the patch must not meet it again: what the products above lose to rounding, which
+    // grows with the patch's whole extent, is no distance.
+    double least = 64 * std::numeric_limits<double>::epsilon() *
+                   (length(from) + length(along) + length(p10 - p00)) * std::sqrt(dot(along, along) * scale);
+    if (!(v >= -slack && v <= 1 + slack) || !(t > least && t < tmax)) return false;
     hit = {t, u, std::clamp(v, 0.0, 1.0)};
     return true;
 }

@@ -85,7 +85,7 @@ std::vector<Case> all_cases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Furnace, ::testing::ValuesIn(all_cases()),
-                         [](const auto& info) { return ::testing::PrintToString(info.param); });
+                         [](const auto& test) { return ::testing::PrintToString(test.param); });
 
 // A mirror and a lossless glass sphere in a uniform sky are invisible: everything shows 1. Needs paths long enough
 // that almost no light is left inside the glass.

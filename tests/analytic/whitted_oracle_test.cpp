@@ -61,8 +61,8 @@ TEST_P(WhittedOracle, DiffersOnlyOnEdges) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, WhittedOracle, ::testing::Values("whitted-spheres", "nested-glass", "several-lights"),
-                         [](const auto& info) {
-                             std::string name = info.param;
+                         [](const auto& test) {
+                             std::string name = test.param;
                              for (char& c : name)
                                  if (c == '-') c = '_';
                              return name;

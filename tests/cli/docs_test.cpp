@@ -35,14 +35,16 @@ TEST_P(Docs, EveryCommandWorks) {
         Outcome o = shell(line);
         EXPECT_EQ(o.exit_code, 0) << command << "\n" << o.err;
     }
-    if (std::string(GetParam()) == "README.md") EXPECT_GE(commands.size(), 8u);
+    if (std::string(GetParam()) == "README.md") {
+        EXPECT_GE(commands.size(), 8u);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, Docs,
                          ::testing::Values("README.md", "docs/tour.md", "docs/architecture.md", "docs/contributing.md",
                                            "docs/dependencies.md"),
-                         [](const auto& info) {
-                             std::string name = std::filesystem::path(info.param).stem().string();
+                         [](const auto& test) {
+                             std::string name = std::filesystem::path(test.param).stem().string();
                              return name;
                          });
 

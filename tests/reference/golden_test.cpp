@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Golden{"materials_simplepath", "materials", {96, 54}, 16, "simplepath"},
                       Golden{"materials_occlusion", "materials", {96, 54}, 16, "ambientocclusion"},
                       Golden{"phong_path", "whitted-spheres", {80, 60}, 16, "path"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 } // namespace
 } // namespace alhazen::testing
