@@ -33,7 +33,8 @@ std::string read_plain(const std::filesystem::path& path, std::size_t max_bytes)
     std::array<char, 65536> buffer;
     while (in && (in.read(buffer.data(), buffer.size()) || in.gcount() > 0)) {
         bytes.append(buffer.data(), static_cast<std::size_t>(in.gcount()));
-        if (bytes.size() > max_bytes) throw std::runtime_error(fmt::format("larger than {} bytes", max_bytes));
+        if (bytes.size() > max_bytes)
+            throw std::runtime_error(fmt::format("larger than {} bytes", max_bytes));
     }
     return bytes;
 }
@@ -77,6 +78,9 @@ std::string read_file(const std::filesystem::path& path, std::size_t max_bytes) 
     auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw std::runtime_error("no such file");
     if (std::filesystem::is_directory(status)) throw std::runtime_error("is a directory, not a file");
+    // Some, such as /dev/zero, have no end.
+    if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+        throw std::runtime_error("is a device, not a file");
     std::string bytes = read_plain(path, max_bytes);
     bool gzipped = bytes.size() >= 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b';
     return gzipped ? decompress(bytes, max_bytes) : bytes;

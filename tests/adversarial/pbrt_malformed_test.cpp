@@ -77,6 +77,8 @@ TEST(MalformedPbrt, Directives) {
          "1:52: error: Transform needs 16 numbers; found \"]\" after 15"},
         {"WorldBegin Include", "1:19: error: expected a file name in quotes, found the end of the file"},
         {"WorldBegin Include \"x.pbrt\"", "1:12: error: cannot read \"x.pbrt\": no such file"},
+        {"WorldBegin Include \"/dev/zero\"",
+         "1:12: error: cannot read \"/dev/zero\": is a device, not a file"},
         {"Option \"seed\" [1 2] WorldBegin", "1:18: error: expected \"]\" after one value, found 2"},
     });
 }

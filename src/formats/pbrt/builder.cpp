@@ -104,7 +104,6 @@ void PbrtBuilder::camera(Node node, Place place) {
             return;
         }
         node.name = words->front();
-        node.parameters.erase(name);
     }
     auto& cameras = scene_.cameras;
     auto same = std::find_if(cameras.begin(), cameras.end(),
