@@ -1,3 +1,4 @@
+// How light is computed, one line each; the first is the paper's.
 KIND(whitted)
 KIND(path)
 KIND(simplepath)
