@@ -63,11 +63,8 @@ const CameraNode* find_camera(const SceneDescription& description, const RenderS
     if (settings.camera.empty()) return description.cameras.empty() ? nullptr : &description.cameras.back();
     std::vector<std::string> names;
     for (const CameraNode& camera : description.cameras) {
-        const Parameter* name = camera.node.find("name");
-        auto* text = name ? std::get_if<std::vector<std::string>>(&name->values) : nullptr;
-        if (!text || text->empty()) continue;
-        if (text->front() == settings.camera) return &camera;
-        names.push_back(text->front());
+        if (camera.node.name == settings.camera) return &camera;
+        if (!camera.node.name.empty()) names.push_back(camera.node.name);
     }
     messages.add_error({}, fmt::format("no camera is named \"{}\"{}", settings.camera,
                                        did_you_mean(settings.camera, names)));

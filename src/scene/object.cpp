@@ -42,21 +42,21 @@ void transform_hit(const Transform& t, Hit& hit) {
 Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instances)
     : shapes_(std::move(shapes)), instances_(std::move(instances)), bvh_(bounds_of(shapes_, instances_)) {
     primitives_.reserve(bvh_.primitive_count());
+    for (const PlacedShape& placed : shapes_) {
+        const FloatTexture& alpha = placed.shape->alpha;
+        leaves_.push_back({placed.shape.get(), placed.shape->triangles(), alpha.is_constant() && alpha.constant() >= 1,
+                           placed.material && placed.material->is_interface()});
+    }
     for (std::uint32_t s = 0; s < shapes_.size(); ++s)
         for (std::uint32_t i = 0; i < shapes_[s].shape->primitive_count(); ++i) primitives_.push_back({s, i});
     for (std::uint32_t i = 0; i < instances_.size(); ++i) primitives_.push_back({instance_mark, i});
 }
 
-bool Object::meets(const Ray& ray, const Primitive& primitive, Intersection& hit) const {
-    const PlacedShape& placed = shapes_[primitive.shape];
-    Intersection candidate;
-    if (!placed.shape->intersect(ray, primitive.primitive, candidate)) return false;
-    bool is_solid = placed.shape->alpha.is_constant() && placed.shape->alpha.constant() >= 1;
-    if (!is_solid && !alpha_passes(ray, primitive, candidate)) return false;
-    hit.t = candidate.t;
-    hit.u = candidate.u;
-    hit.v = candidate.v;
-    return true;
+bool Object::meets(const Ray& ray, const RayShear& shear, const Primitive& primitive, Intersection& hit) const {
+    const Leaf& leaf = leaves_[primitive.shape];
+    bool met = leaf.mesh ? leaf.mesh->intersect_with(ray, shear, primitive.primitive, hit)
+                         : leaf.shape->intersect(ray, primitive.primitive, hit);
+    return met && (leaf.is_solid || alpha_passes(ray, primitive, hit));
 }
 
 // Chance decides between solid and absent, by a hash of the ray: the same ray always sees the same surface.
@@ -78,6 +78,7 @@ void Object::closest(const Ray& ray, Found& found) const {
 
 void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth,
                             std::array<const PlacedObject*, Found::max_depth>& chain) const {
+    const RayShear shear(ray);
     Intersection nearest;
     float best_t = infinity;
     std::uint32_t best = no_primitive;
@@ -91,7 +92,7 @@ void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth,
     bvh_.closest(ray, nearest, [&](std::uint32_t index, const Ray& r, Intersection& hit) {
         const Primitive& primitive = primitives_[index];
         if (primitive.shape != instance_mark) {
-            if (!meets(r, primitive, hit) || !accept(hit.t, index)) return false;
+            if (!meets(r, shear, primitive, hit) || !accept(hit.t, index)) return false;
             found.hit = hit;
             found.object = this;
             found.depth = depth;
@@ -113,6 +114,7 @@ void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth,
 }
 
 bool Object::any(const Ray& ray) const {
+    const RayShear shear(ray);
     return bvh_.any(ray, [&](std::uint32_t index, const Ray& r, Intersection& hit) {
         const Primitive& primitive = primitives_[index];
         if (primitive.shape == instance_mark) {
@@ -121,9 +123,7 @@ bool Object::any(const Ray& ray) const {
             hit.t = 0;
             return instance.object->any(ray_into(instance, r, shift));
         }
-        const Material* material = shapes_[primitive.shape].material;
-        if (material && material->is_interface()) return false;
-        return meets(r, primitive, hit);
+        return !leaves_[primitive.shape].is_interface && meets(r, shear, primitive, hit);
     });
 }
 

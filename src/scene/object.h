@@ -8,6 +8,7 @@
 #include "accel/bvh.h"
 #include "materials/material.h"
 #include "shapes/shape.h"
+#include "shapes/triangle_mesh.h"
 
 namespace alhazen {
 
@@ -62,14 +63,21 @@ class Object {
         std::uint32_t shape, primitive;
     };
     static constexpr std::uint32_t instance_mark = 0xffffffffu;
+    /// What the leaf test needs of a shape, in one place.
+    struct Leaf {
+        const Shape* shape;
+        const TriangleMesh* mesh; ///< tested without a virtual call
+        bool is_solid, is_interface;
+    };
 
     void closest_nested(const Ray& ray, Found& found, std::size_t depth,
                         std::array<const PlacedObject*, Found::max_depth>& chain) const;
-    bool meets(const Ray& ray, const Primitive& primitive, Intersection& hit) const;
+    bool meets(const Ray& ray, const RayShear& shear, const Primitive& primitive, Intersection& hit) const;
     bool alpha_passes(const Ray& ray, const Primitive& primitive, const Intersection& hit) const;
 
     std::vector<PlacedShape> shapes_;
     std::vector<PlacedObject> instances_;
+    std::vector<Leaf> leaves_; ///< one a shape
     std::vector<Primitive> primitives_;
     Bvh bvh_;
 };

@@ -59,6 +59,7 @@ Sampler "zsobol" "integer pixelsamples" 4
 Film "rgb" "integer xresolution" 32 "integer yresolution" 24 )" + film + R"(
 LookAt 0 0 -5  0 0 0  0 1 0
 Camera "perspective" "float fov" 40 "string name" "front"
+Identity
 LookAt 0 0 5  0 0 0  0 1 0
 Camera "perspective" "float fov" 40 "string name" "back"
 WorldBegin

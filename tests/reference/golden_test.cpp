@@ -54,8 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Golden{"materials_spectral", "materials", {96, 54}, 16},
                       Golden{"materials_rgb", "materials", {96, 54}, 16, "", ColorMode::rgb},
                       Golden{"materials_simplepath", "materials", {96, 54}, 16, "simplepath"},
-                      Golden{"materials_occlusion", "materials", {96, 54}, 16, "ambientocclusion"},
-                      Golden{"phong_path", "whitted-spheres", {80, 60}, 16, "path"}),
+                      Golden{"materials_occlusion", "materials", {96, 54}, 16, "ambientocclusion"}),
     [](const auto& test) { return test.param.name; });
 
 } // namespace
