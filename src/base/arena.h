@@ -10,8 +10,8 @@
 
 namespace alhazen {
 
-/// A bump allocator; reset() takes everything back at once and keeps the blocks. Not for use by two threads at a
-/// time. Destructors do not run, so only trivially destructible types may be made here.
+/// A bump allocator; reset() takes everything back at once and keeps the blocks. Not for use by two threads
+/// at a time. Destructors do not run, so only trivially destructible types may be made here.
 class Arena {
   public:
     explicit Arena(std::size_t block_size = 16 * 1024) : block_size_(block_size) {}

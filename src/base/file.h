@@ -15,9 +15,9 @@ namespace alhazen {
 /// data", "larger than ... bytes when decompressed") without naming the file.
 std::string read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{16} << 30);
 
-/// Calls write with a temporary path beside the target, then renames it over the target: readers see the old file
-/// or the whole new one. The temporary is removed when write throws. Throws std::runtime_error when the folder
-/// cannot be written.
+/// Calls write with a temporary path beside the target, then renames it over the target: readers see the old
+/// file or the whole new one. The temporary is removed when write throws. Throws std::runtime_error when the
+/// folder cannot be written.
 void write_atomically(const std::filesystem::path& target,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 void write_file(const std::filesystem::path& target, std::string_view bytes);

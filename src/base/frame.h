@@ -16,8 +16,8 @@ struct Frame {
         float b = n.x * n.y * a;
         return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
     }
-    /// The frame whose z is the unit vector n and whose x is as near tangent as can be; any frame around n when
-    /// the tangent has no part across n.
+    /// The frame whose z is the unit vector n and whose x is as near tangent as can be; any frame around n
+    /// when the tangent has no part across n.
     static Frame from_z_and_tangent(Vec3 n, Vec3 tangent) {
         Vec3 x = tangent - n * dot(n, tangent);
         float len2 = length_squared(x);

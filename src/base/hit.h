@@ -1,4 +1,5 @@
-/// A point on a surface, as seen by a ray: all that materials, textures, lights and integrators may know of it.
+/// A point on a surface, as seen by a ray: all that materials, textures, lights and integrators may know of
+/// it.
 #pragma once
 
 #include "base/frame.h"
@@ -9,16 +10,17 @@ namespace alhazen {
 struct Material; // materials/material.h
 struct Light;    // lights/light.h
 
-/// A ray's shadow test stops this fraction short of the light, so that the light's own surface does not count.
+/// A ray's shadow test stops this fraction short of the light, so that the light's own surface does not
+/// count.
 inline constexpr float shadow_epsilon = 1e-4f;
 
 /// Plain data in world space. Directions are unit length.
 struct Hit {
-    Vec3 p;       ///< the point
-    Vec3 p_error; ///< bound of its absolute error, per axis
-    Vec3 wo;      ///< towards where the ray came from
-    Vec3 ng;      ///< geometric normal; points out of the surface (see Shape), not necessarily towards wo
-    Vec3 ns;      ///< shading normal, on the same side as ng
+    Vec3 p;          ///< the point
+    Vec3 p_error;    ///< bound of its absolute error, per axis
+    Vec3 wo;         ///< towards where the ray came from
+    Vec3 ng;         ///< geometric normal; points out of the surface (see Shape), not necessarily towards wo
+    Vec3 ns;         ///< shading normal, on the same side as ng
     Vec3 dpdu, dpdv; ///< tangents of the shading surface; not unit length
     Vec2 uv;         ///< surface parameters
     float t = 0;     ///< along the ray
@@ -33,8 +35,8 @@ struct Hit {
     Frame shading_frame() const { return Frame::from_z_and_tangent(ns, dpdu); }
     /// A ray from the surface along d.
     Ray spawn(Vec3 d) const { return {offset_origin(p, p_error, ng, d), d, infinity, time}; }
-    /// A ray from the surface to a point q (known to within +-q_error) on a surface with normal nq (zero when q is
-    /// not on a surface): t = 1 is at q, and tmax stops just before.
+    /// A ray from the surface to a point q (known to within +-q_error) on a surface with normal nq (zero when
+    /// q is not on a surface): t = 1 is at q, and tmax stops just before.
     Ray spawn_to(Vec3 q, Vec3 q_error, Vec3 nq) const {
         Vec3 from = offset_origin(p, p_error, ng, q - p);
         Vec3 to = offset_origin(q, q_error, nq, from - q);

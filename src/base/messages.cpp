@@ -51,8 +51,8 @@ std::string Place::text() const {
 
 std::string Message::full_text() const {
     std::string where = place.text();
-    return fmt::format("{}{}{}: {}", where, where.empty() ? "" : ": ", kind == Kind::error ? "error" : "warning",
-                       text);
+    return fmt::format("{}{}{}: {}", where, where.empty() ? "" : ": ",
+                       kind == Kind::error ? "error" : "warning", text);
 }
 
 SceneError::SceneError(std::vector<Message> messages)

@@ -12,7 +12,8 @@
 
 namespace alhazen {
 
-/// A place in a text file. Lines and columns count from 1; line 0 means the file as a whole, no file means none.
+/// A place in a text file. Lines and columns count from 1; line 0 means the file as a whole, no file means
+/// none.
 struct Place {
     std::shared_ptr<const std::string> file;
     std::uint32_t line = 0;
@@ -71,7 +72,8 @@ class Messages {
     std::size_t errors_ = 0;
 };
 
-/// The candidate nearest to word by edit distance, or "" when none is near (at most a third of the word wrong).
+/// The candidate nearest to word by edit distance, or "" when none is near (at most a third of the word
+/// wrong).
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
 /// " (did you mean \"x\"?)" for the nearest candidate; else "; known: a, b, c" cut to a sensible length.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);

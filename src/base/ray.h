@@ -17,7 +17,8 @@ struct Ray {
     Vec3 at(float t) const { return o + d * t; }
 };
 
-/// Bound of the relative rounding error of n floating-point operations in sequence (Higham 2002, section 3.1).
+/// Bound of the relative rounding error of n floating-point operations in sequence (Higham 2002,
+/// section 3.1).
 inline constexpr float gamma_bound(int n) {
     constexpr float half_epsilon = 0x1p-24f;
     return static_cast<float>(n) * half_epsilon / (1 - static_cast<float>(n) * half_epsilon);
@@ -34,8 +35,9 @@ inline float next_down(float v) {
     return -next_up(-v);
 }
 
-/// Moves p, known to within +-p_error, off the surface with normal ng to the side of w, by just enough that a ray
-/// starting there cannot meet the surface again (Waechter and Binder 2019; Pharr et al. 2023, section 6.8.6).
+/// Moves p, known to within +-p_error, off the surface with normal ng to the side of w, by just enough that a
+/// ray starting there cannot meet the surface again (Waechter and Binder 2019; Pharr et al. 2023,
+/// section 6.8.6).
 inline Vec3 offset_origin(Vec3 p, Vec3 p_error, Vec3 ng, Vec3 w) {
     float distance = dot(abs(ng), p_error);
     Vec3 offset = ng * distance;

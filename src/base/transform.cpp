@@ -159,16 +159,15 @@ Bounds3 Transform::bounds(const Bounds3& b) const {
     return r;
 }
 
-// Pharr, Jakob and Humphreys 2023, section 6.8.5: each row is three products and three sums, plus the rounding of
-// the matrix itself to float.
+// Pharr, Jakob and Humphreys 2023, section 6.8.5: each row is three products and three sums, plus the
+// rounding of the matrix itself to float.
 Vec3 Transform::point_error(Vec3 p, Vec3 error) const {
     Vec3 r;
     for (int i = 0; i < 3; ++i) {
         const auto& row = m_[static_cast<std::size_t>(i)];
-        float carried =
-            std::abs(row[0]) * error.x + std::abs(row[1]) * error.y + std::abs(row[2]) * error.z;
-        float magnitude = std::abs(row[0] * p.x) + std::abs(row[1] * p.y) + std::abs(row[2] * p.z) +
-                          std::abs(row[3]);
+        float carried = std::abs(row[0]) * error.x + std::abs(row[1]) * error.y + std::abs(row[2]) * error.z;
+        float magnitude =
+            std::abs(row[0] * p.x) + std::abs(row[1] * p.y) + std::abs(row[2] * p.z) + std::abs(row[3]);
         r[i] = (gamma_bound(4) + 1) * carried + gamma_bound(4) * magnitude;
     }
     return r;

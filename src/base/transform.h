@@ -26,8 +26,8 @@ struct Matrix4 {
     static Matrix4 scale(Vec3d v);
     /// Turns by degrees about axis, counter-clockwise seen against the axis; axis must not be zero.
     static Matrix4 rotate(double degrees, Vec3d axis);
-    /// World to camera: eye at the origin, the target on +z, up towards +y, x to the right (left-handed, as in
-    /// RenderMan and pbrt). nullopt when eye = target or up is parallel to the view.
+    /// World to camera: eye at the origin, the target on +z, up towards +y, x to the right (left-handed, as
+    /// in RenderMan and pbrt). nullopt when eye = target or up is parallel to the view.
     static std::optional<Matrix4> look_at(Vec3d eye, Vec3d target, Vec3d up);
 };
 

@@ -1,5 +1,5 @@
-/// The subcommands. Each adds itself to the program's argument parser; what it does when chosen is left in action,
-/// whose result is the exit code.
+/// The subcommands. Each adds itself to the program's argument parser; what it does when chosen is left in
+/// action, whose result is the exit code.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@ namespace alhazen {
 
 /// Exit codes of the program.
 inline constexpr int exit_ok = 0;
-inline constexpr int exit_over_limit = 1;   ///< diff: above --max
-inline constexpr int exit_bad_input = 2;    ///< a file, scene or argument is wrong
+inline constexpr int exit_over_limit = 1;    ///< diff: above --max
+inline constexpr int exit_bad_input = 2;     ///< a file, scene or argument is wrong
 inline constexpr int exit_interrupted = 130; ///< stopped by Ctrl-C; what was rendered is written
 
 using Action = std::function<int()>;

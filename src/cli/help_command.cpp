@@ -18,8 +18,9 @@ struct HelpOptions {
 
 void write_markdown(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
-    std::string index = "# Scene language reference\n\nWhat a scene can name, family by family. These pages are "
-                        "written by `alhazen help --markdown docs/reference` from the declarations in the code.\n\n";
+    std::string index =
+        "# Scene language reference\n\nWhat a scene can name, family by family. These pages are "
+        "written by `alhazen help --markdown docs/reference` from the declarations in the code.\n\n";
     for (const FamilyInfo& family : families()) {
         write_file(folder / (family.name + ".md"), family_markdown(family));
         index += fmt::format("- [{}]({}.md): {}\n", family.name, family.name, family.about);
@@ -33,7 +34,8 @@ int run_help(const HelpOptions& options) {
         return exit_ok;
     }
     if (options.family.empty()) {
-        fmt::print("alhazen help TYPE lists what there is of a type; alhazen help TYPE NAME its parameters.\n\n");
+        fmt::print(
+            "alhazen help TYPE lists what there is of a type; alhazen help TYPE NAME its parameters.\n\n");
         for (const FamilyInfo& family : families()) fmt::print("  {:<18}{}\n", family.name, family.about);
         return exit_ok;
     }
@@ -52,10 +54,11 @@ int run_help(const HelpOptions& options) {
             fmt::print("{}", kind_text(family, kind, std::min(terminal_columns(), 100)));
             return exit_ok;
         }
-        throw std::runtime_error(
-            fmt::format("unknown {} \"{}\"{}", options.family, options.kind, did_you_mean(options.kind, kinds)));
+        throw std::runtime_error(fmt::format("unknown {} \"{}\"{}", options.family, options.kind,
+                                             did_you_mean(options.kind, kinds)));
     }
-    throw std::runtime_error(fmt::format("unknown type \"{}\"{}", options.family, did_you_mean(options.family, names)));
+    throw std::runtime_error(
+        fmt::format("unknown type \"{}\"{}", options.family, did_you_mean(options.family, names)));
 }
 
 } // namespace

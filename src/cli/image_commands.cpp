@@ -42,7 +42,8 @@ int run_convert(const ConvertOptions& options) {
     float gain = std::exp2(options.exposure);
     if (gain != 1 || curve != ToneCurve::none)
         for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x) image.set_rgb(x, y, tone_map(curve, image.rgb(x, y) * gain));
+            for (int x = 0; x < image.width(); ++x)
+                image.set_rgb(x, y, tone_map(curve, image.rgb(x, y) * gain));
     WriteOptions write;
     write.jpeg_quality = options.quality;
     write.depth = options.single ? FloatDepth::single : FloatDepth::half;
@@ -60,8 +61,9 @@ struct DiffOptions {
 int run_diff(const DiffOptions& options) {
     Image a = load(options.a), b = load(options.b);
     if (a.size() != b.size())
-        throw std::runtime_error(fmt::format("the images differ in size: {} is {} x {}, {} is {} x {}", options.a,
-                                             a.width(), a.height(), options.b, b.width(), b.height()));
+        throw std::runtime_error(fmt::format("the images differ in size: {} is {} x {}, {} is {} x {}",
+                                             options.a, a.width(), a.height(), options.b, b.width(),
+                                             b.height()));
     Metric chosen = *parse_metric(options.metric);
     double value = 0;
     for (const std::string& name : metric_names()) {
@@ -78,7 +80,8 @@ int run_diff(const DiffOptions& options) {
     if (!options.has_max) return exit_ok;
     // Written so that NaN counts as over the limit.
     bool within = larger_is_better(chosen) ? value >= options.max : value <= options.max;
-    if (!within) fmt::print(stderr, "{} is {:.6g}, beyond the limit {:.6g}\n", options.metric, value, options.max);
+    if (!within)
+        fmt::print(stderr, "{} is {:.6g}, beyond the limit {:.6g}\n", options.metric, value, options.max);
     return within ? exit_ok : exit_over_limit;
 }
 
@@ -89,7 +92,8 @@ void add_convert_command(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("convert", "convert an image to another format");
     command->add_option("IN", options->in, "image to read")->required();
     command->add_option("OUT", options->out, "image to write; the suffix says the format")->required();
-    command->add_option("--exposure", options->exposure, "make it brighter by this many stops (factors of two)")
+    command
+        ->add_option("--exposure", options->exposure, "make it brighter by this many stops (factors of two)")
         ->type_name("STOPS");
     command->add_option("--tonemap", options->tonemap, "curve from scene light to display light")
         ->check(CLI::IsMember(tone_curve_names()))
@@ -97,7 +101,9 @@ void add_convert_command(CLI::App& app, Action& action) {
     command->add_option("--transfer", options->transfer, "how 8-bit files encode values")
         ->check(CLI::IsMember({"srgb", "linear"}))
         ->type_name("srgb|linear");
-    command->add_option("--quality", options->quality, "of JPEG files")->check(CLI::Range(1, 100))->type_name("1-100");
+    command->add_option("--quality", options->quality, "of JPEG files")
+        ->check(CLI::Range(1, 100))
+        ->type_name("1-100");
     command->add_flag("--float", options->single, "EXR with 32 bits a channel instead of 16");
     command->callback([options, &action] { action = [options] { return run_convert(*options); }; });
 }
@@ -111,8 +117,10 @@ void add_diff_command(CLI::App& app, Action& action) {
     command->add_option("--metric", options->metric, "metric of --max and the heat map (default flip)")
         ->check(CLI::IsMember(names))
         ->type_name("mse|relmse|psnr|ssim|flip");
-    auto* max = command->add_option("--max", options->max, "exit with 1 when the metric is worse than this")->type_name("X");
-    command->add_option("-o,--output", options->heat_map_file, "write the error as a heat map")->type_name("FILE");
+    auto* max = command->add_option("--max", options->max, "exit with 1 when the metric is worse than this")
+                    ->type_name("X");
+    command->add_option("-o,--output", options->heat_map_file, "write the error as a heat map")
+        ->type_name("FILE");
     command->callback([options, max, &action] {
         options->has_max = max->count() > 0;
         action = [options] { return run_diff(*options); };

@@ -50,7 +50,8 @@ Json describe_nodes(const SceneDescription& scene) {
     json["area_lights"] = count_types(scene.area_lights, itself);
     json["textures"] = Json::array();
     for (const TextureNode& t : scene.textures) {
-        Json texture{{"name", t.node.name}, {"type", t.node.type}, {"value", t.is_spectrum ? "spectrum" : "float"}};
+        Json texture{
+            {"name", t.node.name}, {"type", t.node.type}, {"value", t.is_spectrum ? "spectrum" : "float"}};
         if (const Parameter* file = t.node.find("filename"))
             if (auto* names = std::get_if<std::vector<std::string>>(&file->values); names && !names->empty())
                 texture["file"] = names->front();
@@ -91,19 +92,21 @@ std::string bytes_text(double bytes) {
 
 void print_text(const Json& j) {
     fmt::print("{}\n", j["scene"].get<std::string>());
-    fmt::print("  film         {} x {}, {} spp\n", j["film"]["width"].get<int>(), j["film"]["height"].get<int>(),
-               j["samples_per_pixel"].get<int>());
+    fmt::print("  film         {} x {}, {} spp\n", j["film"]["width"].get<int>(),
+               j["film"]["height"].get<int>(), j["samples_per_pixel"].get<int>());
     fmt::print("  shapes       {}\n", types_text(j["shapes"]));
     fmt::print("  primitives   {} ({} triangles)\n", j["primitives"].get<std::size_t>(),
                j["triangles"].get<std::size_t>());
-    fmt::print("  instances    {} of {} objects\n", j["instances"].get<std::size_t>(), j["objects"].get<std::size_t>());
+    fmt::print("  instances    {} of {} objects\n", j["instances"].get<std::size_t>(),
+               j["objects"].get<std::size_t>());
     fmt::print("  materials    {}\n", types_text(j["materials"]));
-    fmt::print("  lights       {}; area lights: {}; {} in all\n", types_text(j["lights"]), types_text(j["area_lights"]),
-               j["light_count"].get<std::size_t>());
+    fmt::print("  lights       {}; area lights: {}; {} in all\n", types_text(j["lights"]),
+               types_text(j["area_lights"]), j["light_count"].get<std::size_t>());
     fmt::print("  textures     {}\n", j["textures"].size());
     for (const Json& t : j["textures"]) {
-        std::string size =
-            t.contains("width") ? fmt::format("  {} x {}", t["width"].get<int>(), t["height"].get<int>()) : "";
+        std::string size = t.contains("width")
+                               ? fmt::format("  {} x {}", t["width"].get<int>(), t["height"].get<int>())
+                               : "";
         std::string file = t.contains("file") ? "  " + t["file"].get<std::string>() : "";
         fmt::print("    {:<24}{} {}{}{}\n", t["name"].get<std::string>(), t["value"].get<std::string>(),
                    t["type"].get<std::string>(), size, file);
@@ -111,13 +114,14 @@ void print_text(const Json& j) {
     if (j.contains("bounds")) {
         auto corner = [&](const char* key) {
             const Json& v = j["bounds"][key];
-            return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+            return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0].get<double>(), v[1].get<double>(),
+                               v[2].get<double>());
         };
         fmt::print("  bounds       {} to {}\n", corner("min"), corner("max"));
     }
-    fmt::print("  memory       {} (accelerator {}, shapes {}, textures {})\n", bytes_text(j["memory_bytes"].get<double>()),
-               bytes_text(j["accelerator_bytes"].get<double>()), bytes_text(j["shape_bytes"].get<double>()),
-               bytes_text(j["texture_bytes"].get<double>()));
+    fmt::print("  memory       {} (accelerator {}, shapes {}, textures {})\n",
+               bytes_text(j["memory_bytes"].get<double>()), bytes_text(j["accelerator_bytes"].get<double>()),
+               bytes_text(j["shape_bytes"].get<double>()), bytes_text(j["texture_bytes"].get<double>()));
 }
 
 int run_info(const InfoOptions& options) {

@@ -28,14 +28,16 @@ std::vector<int> split_integers(const std::string& text, char separator) {
 void read_size(const std::string& text, RenderSettings& settings) {
     auto n = split_integers(text, 'x');
     if (n.size() != 2 || n[0] < 1 || n[1] < 1 || n[0] > 65536 || n[1] > 65536)
-        throw CLI::ValidationError("--size", fmt::format("\"{}\" is not a size; write it as 800x600 (1 to 65536)", text));
+        throw CLI::ValidationError(
+            "--size", fmt::format("\"{}\" is not a size; write it as 800x600 (1 to 65536)", text));
     settings.size = Vec2i{n[0], n[1]};
 }
 
 void read_crop(const std::string& text, RenderSettings& settings) {
     auto n = split_integers(text, ',');
     if (n.size() != 4)
-        throw CLI::ValidationError("--crop", fmt::format("\"{}\" is not a crop; write it as X0,Y0,X1,Y1 in pixels", text));
+        throw CLI::ValidationError(
+            "--crop", fmt::format("\"{}\" is not a crop; write it as X0,Y0,X1,Y1 in pixels", text));
     settings.crop = Rect2i{{n[0], n[1]}, {n[2], n[3]}};
 }
 
@@ -44,24 +46,35 @@ void read_crop(const std::string& text, RenderSettings& settings) {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
     RenderSettings& s = options.settings;
     command.add_option("--spp", s.spp, "samples per pixel")->check(CLI::Range(1, 1 << 24))->type_name("N");
-    command.add_option_function<std::string>(
-               "--size", [&s](const std::string& text) { read_size(text, s); }, "film resolution in pixels")
+    command
+        .add_option_function<std::string>(
+            "--size", [&s](const std::string& text) { read_size(text, s); }, "film resolution in pixels")
         ->type_name("WxH");
-    command.add_option_function<std::string>(
-               "--crop", [&s](const std::string& text) { read_crop(text, s); }, "render these pixels only (X1, Y1 excluded)")
+    command
+        .add_option_function<std::string>(
+            "--crop", [&s](const std::string& text) { read_crop(text, s); },
+            "render these pixels only (X1, Y1 excluded)")
         ->type_name("X0,Y0,X1,Y1");
-    command.add_option("--integrator", s.integrator, "use this integrator (alhazen help integrator)")->type_name("NAME");
+    command.add_option("--integrator", s.integrator, "use this integrator (alhazen help integrator)")
+        ->type_name("NAME");
     command.add_option("--camera", s.camera, "use the camera of this name")->type_name("NAME");
     command.add_option("--seed", s.seed, "seed of the random numbers")->type_name("N");
-    command.add_option("--threads", s.threads, "how many threads (default: all)")->check(CLI::Range(0, 4096))->type_name("N");
-    command.add_option("--tile-size", s.tile_size, "pixels a thread takes at a time")->check(CLI::Range(1, 4096))->type_name("N");
-    command.add_option_function<std::string>(
-               "--color", [&s](const std::string& mode) { s.color = find_color_mode(mode); },
-               "compute in sampled wavelengths or in RGB")
+    command.add_option("--threads", s.threads, "how many threads (default: all)")
+        ->check(CLI::Range(0, 4096))
+        ->type_name("N");
+    command.add_option("--tile-size", s.tile_size, "pixels a thread takes at a time")
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N");
+    command
+        .add_option_function<std::string>(
+            "--color", [&s](const std::string& mode) { s.color = find_color_mode(mode); },
+            "compute in sampled wavelengths or in RGB")
         ->check(CLI::IsMember({"spectral", "rgb"}))
         ->type_name("spectral|rgb");
     command.add_flag("--lenient", options.lenient, "replace what is unknown and say so, instead of stopping");
-    command.add_option("--set", s.overrides, "set a parameter, e.g. integrator.maxdepth=3 or material.Floor.roughness=.1")
+    command
+        .add_option("--set", s.overrides,
+                    "set a parameter, e.g. integrator.maxdepth=3 or material.Floor.roughness=.1")
         ->type_name("PATH=VALUE")
         ->expected(1)
         ->take_all();

@@ -62,11 +62,13 @@ void check_output(const std::string& file) {
     if (!has_image_suffix(path)) {
         std::string known;
         for (const std::string& suffix : image_suffixes()) known += (known.empty() ? "" : ", ") + suffix;
-        throw std::runtime_error(fmt::format("cannot write \"{}\": the suffix must be one of {}", file, known));
+        throw std::runtime_error(
+            fmt::format("cannot write \"{}\": the suffix must be one of {}", file, known));
     }
     std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     if (!std::filesystem::is_directory(folder))
-        throw std::runtime_error(fmt::format("cannot write \"{}\": there is no folder \"{}\"", file, folder.string()));
+        throw std::runtime_error(
+            fmt::format("cannot write \"{}\": there is no folder \"{}\"", file, folder.string()));
     if (access(folder.c_str(), W_OK) != 0)
         throw std::runtime_error(
             fmt::format("cannot write \"{}\": no permission in folder \"{}\"", file, folder.string()));
@@ -86,8 +88,8 @@ void write_outputs(const World& world, const Image& image, const std::vector<std
     }
 }
 
-void write_stats(const RenderOptions& options, const World& world, const RenderStats& stats, const Timing& timing,
-                 const Messages& messages) {
+void write_stats(const RenderOptions& options, const World& world, const RenderStats& stats,
+                 const Timing& timing, const Messages& messages) {
     SceneCounts counts = world.scene->counts();
     nlohmann::ordered_json json;
     json["scene"] = options.scene;
@@ -106,8 +108,8 @@ void write_stats(const RenderOptions& options, const World& world, const RenderS
     json["triangles"] = counts.triangles;
     json["primitives"] = counts.primitives;
     json["instances"] = counts.instances;
-    json["threads"] =
-        options.scene_options.settings.threads > 0 ? options.scene_options.settings.threads : hardware_threads();
+    json["threads"] = options.scene_options.settings.threads > 0 ? options.scene_options.settings.threads
+                                                                 : hardware_threads();
     json["non_finite_samples"] = stats.bad_samples;
     json["cancelled"] = stats.cancelled;
     json["warnings"] = nlohmann::json::array();
@@ -120,9 +122,9 @@ void report_bad_samples(const RenderOptions& options, const RenderStats& stats) 
     fmt::print(stderr, "alhazen: warning: {} samples were not finite numbers and were left out; the first:\n",
                stats.bad_samples);
     for (const BadSample& bad : stats.first_bad_samples)
-        fmt::print(stderr, "    pixel {},{} sample {}: alhazen render {} --crop {},{},{},{} --spp {}\n", bad.pixel.x,
-                   bad.pixel.y, bad.sample, options.scene, bad.pixel.x, bad.pixel.y, bad.pixel.x + 1, bad.pixel.y + 1,
-                   stats.samples);
+        fmt::print(stderr, "    pixel {},{} sample {}: alhazen render {} --crop {},{},{},{} --spp {}\n",
+                   bad.pixel.x, bad.pixel.y, bad.sample, options.scene, bad.pixel.x, bad.pixel.y,
+                   bad.pixel.x + 1, bad.pixel.y + 1, stats.samples);
 }
 
 RenderStats render_with_progress(World& world, const RenderOptions& options) {
@@ -156,7 +158,8 @@ int run_render(RenderOptions& options) {
     if (!options.stats_file.empty()) {
         auto folder = std::filesystem::path(options.stats_file).parent_path();
         if (!folder.empty() && !std::filesystem::is_directory(folder))
-            throw std::runtime_error(fmt::format("cannot write \"{}\": there is no such folder", options.stats_file));
+            throw std::runtime_error(
+                fmt::format("cannot write \"{}\": there is no such folder", options.stats_file));
     }
 
     Messages messages;
@@ -185,8 +188,8 @@ int run_render(RenderOptions& options) {
     if (!options.stats_file.empty()) write_stats(options, *world, stats, timing, messages);
     if (!options.quiet)
         for (const std::string& file : options.outputs)
-            fmt::print("{}: {} x {}, {} spp, {}, {:.2f} Mrays/s\n", file, image.width(), image.height(), stats.samples,
-                       duration_text(stats.seconds),
+            fmt::print("{}: {} x {}, {} spp, {}, {:.2f} Mrays/s\n", file, image.width(), image.height(),
+                       stats.samples, duration_text(stats.seconds),
                        static_cast<double>(stats.rays.total()) / 1e6 / std::max(stats.seconds, 1e-9));
     if (options.show) show_picture(image, picture_for_viewer(*world, image, options.outputs));
     return stats.cancelled ? exit_interrupted : exit_ok;
@@ -206,7 +209,8 @@ void add_render_command(CLI::App& app, Action& action) {
         ->take_all();
     add_scene_options(*command, options->scene_options);
     command->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
-    command->add_option("--stats", options->stats_file, "write timings and counts as JSON")->type_name("FILE");
+    command->add_option("--stats", options->stats_file, "write timings and counts as JSON")
+        ->type_name("FILE");
     command->add_flag("--show", options->show, "put the picture on the screen when done");
     command->callback([options, &action] { action = [options] { return run_render(*options); }; });
 }

@@ -57,7 +57,8 @@ int terminal_columns() {
 
 std::optional<Vec2i> terminal_cell_size() {
     winsize size{};
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_xpixel == 0 || size.ws_col == 0 || size.ws_row == 0)
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_xpixel == 0 || size.ws_col == 0 ||
+        size.ws_row == 0)
         return std::nullopt;
     return Vec2i{size.ws_xpixel / size.ws_col, size.ws_ypixel / size.ws_row};
 }
@@ -74,8 +75,8 @@ bool terminal_has_sixel() {
 
 bool terminal_has_kitty_graphics() {
     std::string_view program = environment("TERM_PROGRAM");
-    return environment("TERM") == "xterm-kitty" || !environment("KITTY_WINDOW_ID").empty() || program == "ghostty" ||
-           program == "WezTerm";
+    return environment("TERM") == "xterm-kitty" || !environment("KITTY_WINDOW_ID").empty() ||
+           program == "ghostty" || program == "WezTerm";
 }
 
 } // namespace alhazen

@@ -1,5 +1,5 @@
-/// How each C++ type of a member reads its value, prints its default, and names itself in the manual. A room with
-/// types of its own (textures) specialises FieldType beside them.
+/// How each C++ type of a member reads its value, prints its default, and names itself in the manual. A room
+/// with types of its own (textures) specialises FieldType beside them.
 #pragma once
 
 #include <array>
@@ -74,8 +74,8 @@ struct FieldType<Vec3> {
     static void read(Vec3& out, const Parameter& p, BuildContext& context);
 };
 
-/// Arrays: of bool (as uint8_t), int, float, Vec2, Vec3, std::string. Copies; for large arrays the shape moves the
-/// parameter's values out before reading (see take_values).
+/// Arrays: of bool (as uint8_t), int, float, Vec2, Vec3, std::string. Copies; for large arrays the shape
+/// moves the parameter's values out before reading (see take_values).
 template <class E>
 struct FieldType<std::vector<E>> {
     static std::string type_text() {

@@ -59,13 +59,13 @@ bool check_range(const FieldDoc& field, const Parameter& p, BuildContext& contex
     if (!bad) return true;
     std::string which = p.count() > 1 ? fmt::format(" (value {})", bad->index + 1) : "";
     context.messages.add_error(p.place,
-                               fmt::format("parameter \"{}\" is {}{}; it must be {}", p.name, bad->value, which,
-                                           bad->is_finite ? field.range_text() : "a finite number"));
+                               fmt::format("parameter \"{}\" is {}{}; it must be {}", p.name, bad->value,
+                                           which, bad->is_finite ? field.range_text() : "a finite number"));
     return false;
 }
 
-void report_unknown_parameter(const Parameter& p, std::string_view owner, const std::vector<std::string>& known,
-                              BuildContext& context) {
+void report_unknown_parameter(const Parameter& p, std::string_view owner,
+                              const std::vector<std::string>& known, BuildContext& context) {
     if (p.may_be_unused) return;
     context.messages.add_unsupported(
         p.place, fmt::format("unknown parameter \"{}\" of {}{}", p.name, owner, did_you_mean(p.name, known)),
@@ -74,8 +74,8 @@ void report_unknown_parameter(const Parameter& p, std::string_view owner, const 
 
 void report_missing_parameter(const FieldDoc& field, std::string_view owner, const Node& node,
                               BuildContext& context) {
-    context.messages.add_error(node.place, fmt::format("{} needs the parameter \"{} {}\": {}", owner, field.type,
-                                                       field.name, field.meaning));
+    context.messages.add_error(node.place, fmt::format("{} needs the parameter \"{} {}\": {}", owner,
+                                                       field.type, field.name, field.meaning));
 }
 
 } // namespace alhazen

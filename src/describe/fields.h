@@ -1,6 +1,6 @@
-/// A parameter is declared once. Each kind of thing lists its members with a name and a meaning; the type comes
-/// from the member and the default from its initialiser. Reading from every format, error messages, the manual
-/// and the conformance tests' examples all come from that list.
+/// A parameter is declared once. Each kind of thing lists its members with a name and a meaning; the type
+/// comes from the member and the default from its initialiser. Reading from every format, error messages, the
+/// manual and the conformance tests' examples all come from that list.
 ///
 ///     struct Diffuse final : Material {
 ///         AlbedoTexture reflectance{0.5f};
@@ -162,8 +162,8 @@ const Fields<T>& fields_of() {
 }
 
 /// Sets object's members from the node's parameters. Adds an error for each parameter that is unknown, of the
-/// wrong type or out of range, and for each required one that is absent. owner says whose they are in messages:
-/// "material \"diffuse\"".
+/// wrong type or out of range, and for each required one that is absent. owner says whose they are in
+/// messages: "material \"diffuse\"".
 template <class T>
 void read_fields(T& object, const Node& node, std::string_view owner, BuildContext& context) {
     const auto& fields = fields_of<T>().list();
@@ -180,7 +180,8 @@ void read_fields(T& object, const Node& node, std::string_view owner, BuildConte
         }
     }
     for (const auto& f : fields)
-        if (f.doc.is_required && !node.find(f.doc.name)) report_missing_parameter(f.doc, owner, node, context);
+        if (f.doc.is_required && !node.find(f.doc.name))
+            report_missing_parameter(f.doc, owner, node, context);
 }
 
 } // namespace alhazen

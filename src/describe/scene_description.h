@@ -1,5 +1,5 @@
-/// The neutral scene: what every format produces and what the renderer is built from. Plain data with places in
-/// the source; no format's words, no renderer's objects.
+/// The neutral scene: what every format produces and what the renderer is built from. Plain data with places
+/// in the source; no format's words, no renderer's objects.
 #pragma once
 
 #include <filesystem>
@@ -53,9 +53,10 @@ struct ShapeNode {
     Node node;
     Motion world_from_object;
     bool reverse_orientation = false;
-    int material = -1;         ///< index into SceneDescription::materials; -1: see material_name
-    std::string material_name; ///< a named material; "" with material -1 means the format's default, diffuse 0.5
-    int area_light = -1;       ///< index into SceneDescription::area_lights; -1 for none
+    int material = -1; ///< index into SceneDescription::materials; -1: see material_name
+    std::string
+        material_name;   ///< a named material; "" with material -1 means the format's default, diffuse 0.5
+    int area_light = -1; ///< index into SceneDescription::area_lights; -1 for none
     std::string inside_medium, outside_medium;
 };
 
@@ -73,15 +74,15 @@ struct ObjectNode {
     std::vector<InstanceNode> instances;
 };
 
-/// A whole scene. Families with one member hold a node whose type is "" where the format named none; the renderer
-/// then takes the default (zsobol, gaussian, path ...).
+/// A whole scene. Families with one member hold a node whose type is "" where the format named none; the
+/// renderer then takes the default (zsobol, gaussian, path ...).
 struct SceneDescription {
     std::filesystem::path file;        ///< the scene file; empty when built in code
     std::filesystem::path base_folder; ///< relative file names are looked up from here
 
     std::vector<CameraNode> cameras; ///< the last is the default
     Node film, filter, sampler, integrator, accelerator;
-    std::vector<Node> options; ///< format options: type is the option's name, one parameter "value"
+    std::vector<Node> options;          ///< format options: type is the option's name, one parameter "value"
     float time_start = 0, time_end = 1; ///< when the two ends of Motion hold
 
     std::vector<TextureNode> textures; ///< a texture refers only to textures before it

@@ -8,8 +8,8 @@
 
 namespace alhazen {
 
-/// The colour that p gives, with rgb values meaning what role says; nullopt with an error added when p does not
-/// give one. A float or integer is a constant spectrum.
+/// The colour that p gives, with rgb values meaning what role says; nullopt with an error added when p does
+/// not give one. A float or integer is a constant spectrum.
 std::optional<SpectrumValue> read_spectrum(const Parameter& p, SpectrumRole role, BuildContext& context);
 
 /// A SpectrumValue member together with what its rgb values mean.
@@ -19,7 +19,8 @@ struct RoleSpectrum {
     std::string text = "1"; ///< how the manual prints it as a default
 
     RoleSpectrum() = default;
-    RoleSpectrum(float grey) : value(SpectrumValue::constant(grey)), text(number_text(static_cast<double>(grey))) {}
+    RoleSpectrum(float grey)
+        : value(SpectrumValue::constant(grey)), text(number_text(static_cast<double>(grey))) {}
     RoleSpectrum(SpectrumValue v, std::string text_) : value(std::move(v)), text(std::move(text_)) {}
     Spectrum eval(const Wavelengths& lambda) const { return value.eval(lambda); }
 };

@@ -4,19 +4,32 @@ namespace alhazen {
 
 std::string_view type_name(ValueType type) {
     switch (type) {
-    case ValueType::boolean: return "bool";
-    case ValueType::integer: return "integer";
-    case ValueType::real: return "float";
-    case ValueType::point2: return "point2";
-    case ValueType::vector2: return "vector2";
-    case ValueType::point3: return "point3";
-    case ValueType::vector3: return "vector3";
-    case ValueType::normal: return "normal";
-    case ValueType::rgb: return "rgb";
-    case ValueType::blackbody: return "blackbody";
-    case ValueType::spectrum: return "spectrum";
-    case ValueType::string: return "string";
-    case ValueType::texture: return "texture";
+    case ValueType::boolean:
+        return "bool";
+    case ValueType::integer:
+        return "integer";
+    case ValueType::real:
+        return "float";
+    case ValueType::point2:
+        return "point2";
+    case ValueType::vector2:
+        return "vector2";
+    case ValueType::point3:
+        return "point3";
+    case ValueType::vector3:
+        return "vector3";
+    case ValueType::normal:
+        return "normal";
+    case ValueType::rgb:
+        return "rgb";
+    case ValueType::blackbody:
+        return "blackbody";
+    case ValueType::spectrum:
+        return "spectrum";
+    case ValueType::string:
+        return "string";
+    case ValueType::texture:
+        return "texture";
     }
     return "";
 }

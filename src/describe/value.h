@@ -32,10 +32,11 @@ enum class ValueType {
 /// The word pbrt uses for a type: "bool", "integer", "float", "point3", ...
 std::string_view type_name(ValueType type);
 
-/// Which alternative a type uses: boolean: uint8_t; integer: int; real, rgb, blackbody, spectrum samples: float;
-/// point2, vector2: Vec2; point3, vector3, normal: Vec3; string, texture, spectrum by name: std::string.
-using Values = std::variant<std::vector<std::uint8_t>, std::vector<int>, std::vector<float>, std::vector<Vec2>,
-                            std::vector<Vec3>, std::vector<std::string>>;
+/// Which alternative a type uses: boolean: uint8_t; integer: int; real, rgb, blackbody, spectrum samples:
+/// float; point2, vector2: Vec2; point3, vector3, normal: Vec3; string, texture, spectrum by name:
+/// std::string.
+using Values = std::variant<std::vector<std::uint8_t>, std::vector<int>, std::vector<float>,
+                            std::vector<Vec2>, std::vector<Vec3>, std::vector<std::string>>;
 
 struct Parameter {
     std::string name;
@@ -44,7 +45,8 @@ struct Parameter {
     Place place;
     /// Colour space of rgb values: "srgb", "dci-p3", "rec2020" or "aces2065-1".
     std::string color_space = "srgb";
-    /// Given for a whole group of nodes (pbrt's Attribute), so that a node which has no such parameter ignores it.
+    /// Given for a whole group of nodes (pbrt's Attribute), so that a node which has no such parameter
+    /// ignores it.
     bool may_be_unused = false;
 
     std::size_t count() const;

@@ -1,5 +1,5 @@
-/// Ambient occlusion (Zhukov, Iones and Kronin 1998): how much of the sky each point sees, whatever the materials
-/// and lights. The picture: a clay model on a cloudy day.
+/// Ambient occlusion (Zhukov, Iones and Kronin 1998): how much of the sky each point sees, whatever the
+/// materials and lights. The picture: a clay model on a cloudy day.
 #include "color/spectrum_value.h"
 #include "integrators/integrator.h"
 #include "math/warp.h"

@@ -8,7 +8,8 @@ float DirectLight::mis_weight() const {
     return power_heuristic(light_pdf, bsdf_pdf, is_delta);
 }
 
-std::optional<DirectLight> propose_light(const Hit& hit, const Bsdf& bsdf, const Frame& frame, PathContext& path) {
+std::optional<DirectLight> propose_light(const Hit& hit, const Bsdf& bsdf, const Frame& frame,
+                                         PathContext& path) {
     LightReceiver at{hit.p, hit.ns};
     float u = path.samples.next1();
     Vec2 u2 = path.samples.next2();

@@ -1,4 +1,5 @@
-/// Next event estimation: one light chosen, one point on it, and what the surface would send to the eye of it.
+/// Next event estimation: one light chosen, one point on it, and what the surface would send to the eye of
+/// it.
 #pragma once
 
 #include <optional>
@@ -10,9 +11,9 @@ namespace alhazen {
 
 /// Light proposed for a surface, to be counted if shadow_ray is free.
 struct DirectLight {
-    Spectrum value;       ///< BSDF times cosine times arriving light, over the density of choosing it
-    float light_pdf = 0;  ///< that density, per steradian
-    float bsdf_pdf = 0;   ///< density with which the BSDF would have chosen the direction
+    Spectrum value;        ///< BSDF times cosine times arriving light, over the density of choosing it
+    float light_pdf = 0;   ///< that density, per steradian
+    float bsdf_pdf = 0;    ///< density with which the BSDF would have chosen the direction
     bool is_delta = false; ///< nothing but light sampling finds this light
     Ray shadow_ray;
 
@@ -21,6 +22,7 @@ struct DirectLight {
 };
 
 /// Takes three random numbers of the path, whatever comes of them; nullopt when no light would arrive.
-std::optional<DirectLight> propose_light(const Hit& hit, const Bsdf& bsdf, const Frame& frame, PathContext& path);
+std::optional<DirectLight> propose_light(const Hit& hit, const Bsdf& bsdf, const Frame& frame,
+                                         PathContext& path);
 
 } // namespace alhazen

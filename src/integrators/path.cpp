@@ -1,7 +1,7 @@
-/// The path tracer (Kajiya 1986): light is gathered along random walks from the camera. At each surface one light
-/// is sampled (next event estimation) and one direction of the BSDF; where both can find the same light, the two
-/// are weighed by the power heuristic (Veach 1997, section 9.2). Walks that carry little end by Russian roulette.
-/// The picture: everything surfaces do to light, converging as noise.
+/// The path tracer (Kajiya 1986): light is gathered along random walks from the camera. At each surface one
+/// light is sampled (next event estimation) and one direction of the BSDF; where both can find the same
+/// light, the two are weighed by the power heuristic (Veach 1997, section 9.2). Walks that carry little end
+/// by Russian roulette. The picture: everything surfaces do to light, converging as noise.
 #include "integrators/direct_light.h"
 #include "integrators/integrator.h"
 #include "integrators/weights.h"
@@ -17,43 +17,39 @@ struct PathTracer final : Integrator {
     LightSampler lightsampler = LightSampler::bvh;
 
     static void describe(Fields<PathTracer>& f) {
-        f.about("Unidirectional path tracer with next event estimation, multiple importance sampling and Russian "
-                "roulette.");
-        f.field("maxdepth", &PathTracer::maxdepth, "bounces of a path at most; 0 shows lights only").in(0, 10000);
+        f.about(
+            "Unidirectional path tracer with next event estimation, multiple importance sampling and Russian "
+            "roulette.");
+        f.field("maxdepth", &PathTracer::maxdepth, "bounces of a path at most; 0 shows lights only")
+            .in(0, 10000);
         f.field("regularize", &PathTracer::regularize,
                 "widen narrow lobes after the first rough bounce: less noise, a little blur");
         f.field("lightsampler", &PathTracer::lightsampler, "how the light to sample is chosen");
     }
 
-    std::string light_sampler() const override { return FieldType<LightSampler>::choices()[std::size_t(lightsampler)]; }
+    std::string light_sampler() const override {
+        return FieldType<LightSampler>::choices()[std::size_t(lightsampler)];
+    }
+
+    /// How a path came to where it is: what the light it finds there weighs beside light sampling.
+    struct Arrival {
+        float pdf = 0;        ///< of the BSDF sample that led here
+        bool specular = true; ///< light sampling had no part in finding what this ray finds
+        LightReceiver from;
+
+        float weight(float light_pdf) const { return power_heuristic(pdf, light_pdf, specular); }
+    };
 
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         Spectrum sum = 0, throughput = 1;
-        float pdf = 0;        // of the BSDF sample that led here
-        float eta_scale = 1;  // radiance squeezed by refraction, which Russian roulette must not count as loss
-        bool specular = true; // light sampling had no part in finding what this ray finds
+        float eta_scale = 1; // radiance squeezed by refraction, which Russian roulette must not count as loss
         bool rough_before = false;
-        LightReceiver from{};
+        Arrival arrival;
 
         for (int depth = 0;;) {
             std::optional<Hit> hit = co_await path.closest(ray);
-            if (!hit) {
-                for (const Light* light : path.scene.infinite_lights()) {
-                    Spectrum L = light->escaped(ray.d, path.lambda);
-                    float p = specular ? 0 : path.scene.light_probability(from, light) * light->pdf_escaped(from, ray.d);
-                    sum += throughput * L * power_heuristic(pdf, p, specular);
-                }
-                co_return sum;
-            }
-            if (hit->area_light) {
-                Spectrum L = hit->area_light->emitted(*hit, path.lambda);
-                if (!L.is_black()) {
-                    float p = specular ? 0
-                                       : path.scene.light_probability(from, hit->area_light) *
-                                             hit->area_light->pdf_hit(from, *hit, ray.d);
-                    sum += throughput * L * power_heuristic(pdf, p, specular);
-                }
-            }
+            if (!hit) co_return sum + throughput* escaped_light(ray, arrival, path);
+            if (hit->area_light) sum += throughput * emitted_light(*hit, ray, arrival, path);
 
             Bsdf* bsdf = hit->material->at(*hit, path.lambda, path.arena);
             if (!bsdf) {
@@ -64,8 +60,6 @@ struct PathTracer final : Integrator {
             if (regularize && rough_before) bsdf->regularize();
 
             Frame frame = hit->shading_frame();
-            Vec3 wo = frame.to_local(hit->wo);
-            from = {hit->p, hit->ns};
             if (has(bsdf->lobes(), Lobes::diffuse | Lobes::glossy)) {
                 if (std::optional<DirectLight> direct = propose_light(*hit, *bsdf, frame, path)) {
                     bool visible = co_await path.visible(direct->shadow_ray);
@@ -74,12 +68,11 @@ struct PathTracer final : Integrator {
             }
 
             float u = path.samples.next1();
-            std::optional<BsdfSample> next = bsdf->sample(wo, u, path.samples.next2());
+            std::optional<BsdfSample> next = bsdf->sample(frame.to_local(hit->wo), u, path.samples.next2());
             if (!next || next->pdf == 0) co_return sum;
             throughput *= next->f / next->pdf;
-            pdf = next->pdf;
-            specular = has(next->lobes, Lobes::specular);
-            rough_before |= !specular;
+            arrival = {next->pdf, has(next->lobes, Lobes::specular), {hit->p, hit->ns}};
+            rough_before |= !arrival.specular;
             if (has(next->lobes, Lobes::transmission)) eta_scale *= sqr(next->eta);
             ray = hit->spawn(frame.to_world(next->wi));
 
@@ -90,6 +83,27 @@ struct PathTracer final : Integrator {
             }
             if (throughput.is_black()) co_return sum;
         }
+    }
+
+    static Spectrum escaped_light(const Ray& ray, const Arrival& arrival, const PathContext& path) {
+        Spectrum sum = 0;
+        for (const Light* light : path.scene.infinite_lights()) {
+            float pdf = 0;
+            if (!arrival.specular)
+                pdf = path.scene.light_probability(arrival.from, light) *
+                      light->pdf_escaped(arrival.from, ray.d);
+            sum += light->escaped(ray.d, path.lambda) * arrival.weight(pdf);
+        }
+        return sum;
+    }
+
+    static Spectrum emitted_light(const Hit& hit, const Ray& ray, const Arrival& arrival,
+                                  const PathContext& path) {
+        Spectrum L = hit.area_light->emitted(hit, path.lambda);
+        if (L.is_black() || arrival.specular) return L;
+        float pdf = path.scene.light_probability(arrival.from, hit.area_light) *
+                    hit.area_light->pdf_hit(arrival.from, hit, ray.d);
+        return L * arrival.weight(pdf);
     }
 };
 

@@ -1,4 +1,5 @@
-/// What one path carries with it: its random numbers, wavelengths and memory, and the way to the scene's rays.
+/// What one path carries with it: its random numbers, wavelengths and memory, and the way to the scene's
+/// rays.
 #pragma once
 
 #include <array>

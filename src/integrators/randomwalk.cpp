@@ -12,9 +12,11 @@ struct RandomWalk final : Integrator {
     int maxdepth = 5;
 
     static void describe(Fields<RandomWalk>& f) {
-        f.about("Follows uniformly random directions and counts the light met on the way. Sees no point lights and "
+        f.about("Follows uniformly random directions and counts the light met on the way. Sees no point "
+                "lights and "
                 "no perfect mirrors; very noisy.");
-        f.field("maxdepth", &RandomWalk::maxdepth, "bounces of a path at most; 0 shows lights only").in(0, 10000);
+        f.field("maxdepth", &RandomWalk::maxdepth, "bounces of a path at most; 0 shows lights only")
+            .in(0, 10000);
     }
 
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {

@@ -17,7 +17,8 @@ struct SimplePath final : Integrator {
 
     static void describe(Fields<SimplePath>& f) {
         f.about("Path tracer without multiple importance sampling: a yardstick to test others with.");
-        f.field("maxdepth", &SimplePath::maxdepth, "bounces of a path at most; 0 shows lights only").in(0, 10000);
+        f.field("maxdepth", &SimplePath::maxdepth, "bounces of a path at most; 0 shows lights only")
+            .in(0, 10000);
         f.field("samplelights", &SimplePath::samplelights, "sample a light at each surface");
         f.field("samplebsdf", &SimplePath::samplebsdf, "draw directions from the BSDF, not uniformly");
     }

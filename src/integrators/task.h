@@ -1,4 +1,5 @@
-/// Coroutines that follow one path: an integrator reads like the textbook, and stops wherever it needs a ray traced
+/// Coroutines that follow one path: an integrator reads like the textbook, and stops wherever it needs a ray
+/// traced
 /// (`co_await path.closest(ray)`), so that whoever runs it may trace many paths' rays together.
 #pragma once
 
@@ -29,9 +30,9 @@ PathContext& find_path(First& first, Rest&... rest) {
 
 } // namespace task_detail
 
-/// A computation that yields a T. It starts when awaited (or when run() is called) and resumes whoever awaits it
-/// when done. One argument of the coroutine must be the PathContext&, whose arena holds the coroutine's frame until
-/// the path ends; so a Task must not outlive its path. T must be trivially destructible.
+/// A computation that yields a T. It starts when awaited (or when run() is called) and resumes whoever awaits
+/// it when done. One argument of the coroutine must be the PathContext&, whose arena holds the coroutine's
+/// frame until the path ends; so a Task must not outlive its path. T must be trivially destructible.
 template <class T>
 class [[nodiscard]] Task {
   public:

@@ -7,8 +7,8 @@
 
 namespace alhazen {
 
-/// Weight of a sample drawn with density pdf where another technique would have drawn it with density other; 1 when
-/// no other technique could. Veach 1997, section 9.2.3, exponent 2.
+/// Weight of a sample drawn with density pdf where another technique would have drawn it with density other;
+/// 1 when no other technique could. Veach 1997, section 9.2.3, exponent 2.
 inline float power_heuristic(float pdf, float other, bool only_technique) {
     if (only_technique || other == 0) return 1;
     if (!(pdf < infinity)) return 1;

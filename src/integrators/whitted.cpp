@@ -1,5 +1,6 @@
-/// The classic ray tracer (Whitted 1980), for every shape. A ray is followed to what it hits; what the eye sees
-/// there is the light that arrives directly (Phong 1975), plus what a mirror shows, plus what shines through:
+/// The classic ray tracer (Whitted 1980), for every shape. A ray is followed to what it hits; what the eye
+/// sees there is the light that arrives directly (Phong 1975), plus what a mirror shows, plus what shines
+/// through:
 ///
 ///     trace(ray, depth) = (1 - kr) local + kr trace(mirrored, depth - 1) + kt trace(refracted, depth - 1)
 ///
@@ -18,8 +19,9 @@ Vec3 reflect_ray(Vec3 d, Vec3 n) {
     return d - n * (2 * dot(d, n));
 }
 
-/// Snell's law, eta1 sin(theta1) = eta2 sin(theta2), for a ray along d meeting a surface whose normal n faces it;
-/// eta = eta1 / eta2. On total internal reflection there is no refracted ray, and the mirrored one takes its place.
+/// Snell's law, eta1 sin(theta1) = eta2 sin(theta2), for a ray along d meeting a surface whose normal n faces
+/// it; eta = eta1 / eta2. On total internal reflection there is no refracted ray, and the mirrored one takes
+/// its place.
 Vec3 refract_ray(Vec3 d, Vec3 n, float eta) {
     float cos1 = -dot(d, n);
     float sin2_squared = eta * eta * (1 - cos1 * cos1);
@@ -33,16 +35,20 @@ struct Whitted final : Integrator {
     UnboundedSpectrum ambient{0.1f};
 
     static void describe(Fields<Whitted>& f) {
-        f.about("Whitted's ray tracer: local light by each material's formula, sharp shadows, mirrors and glass. "
-                "Works in linear RGB.");
-        f.field("maxdepth", &Whitted::maxdepth, "how many surfaces a ray may meet, the first one included").in(0, 100);
+        f.about(
+            "Whitted's ray tracer: local light by each material's formula, sharp shadows, mirrors and glass. "
+            "Works in linear RGB.");
+        f.field("maxdepth", &Whitted::maxdepth, "how many surfaces a ray may meet, the first one included")
+            .in(0, 100);
         f.field("shadows", &Whitted::shadows, "whether objects block light");
         f.field("ambient", &Whitted::ambient, "light that comes from everywhere, Ia").in(0, 1e30);
     }
 
     bool works_in_rgb() const override { return true; }
     bool centres_single_samples() const override { return true; }
-    Task<Spectrum> radiance(Ray ray, PathContext& path) const override { return trace_ray(ray, maxdepth, path); }
+    Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
+        return trace_ray(ray, maxdepth, path);
+    }
 
     /// The nearest surface along the ray. For a sphere that is the smaller positive root of a quadratic: see
     /// intersect_ray_sphere in shapes/sphere.cpp.
@@ -72,8 +78,8 @@ struct Whitted final : Integrator {
         co_return sum;
     }
 
-    /// ka Ia + sum over lights [kd max(0, L.N) + ks max(0, R.V)^n] Il for phong materials, the BSDF's value for
-    /// others; a light behind any object adds nothing. Area lights and environments give one sample each.
+    /// ka Ia + sum over lights [kd max(0, L.N) + ks max(0, R.V)^n] Il for phong materials, the BSDF's value
+    /// for others; a light behind any object adds nothing. Area lights and environments give one sample each.
     Task<Spectrum> compute_lighting(const Hit& hit, const Bsdf& bsdf, PathContext& path) const {
         Frame frame = hit.shading_frame();
         Vec3 wo = frame.to_local(hit.wo);
@@ -85,7 +91,8 @@ struct Whitted final : Integrator {
             Spectrum f = bsdf.local(wo, frame.to_local(arriving->wi));
             if (f.is_black()) continue;
             bool visible = true;
-            if (shadows) visible = co_await path.visible(hit.spawn_to(arriving->p, arriving->p_error, arriving->ng));
+            if (shadows)
+                visible = co_await path.visible(hit.spawn_to(arriving->p, arriving->p_error, arriving->ng));
             if (visible) sum += f * arriving->L / arriving->pdf;
         }
         co_return sum;

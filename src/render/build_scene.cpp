@@ -38,9 +38,11 @@ class SceneBuilder {
 
     Transform placement(const Motion& motion, const Place& place) {
         if (motion.is_animated())
-            context_.messages.add_unsupported(place, "moving shapes, lights and cameras are not supported yet",
+            context_.messages.add_unsupported(place,
+                                              "moving shapes, lights and cameras are not supported yet",
                                               "the place at the start of the motion");
-        if (!motion.start.inverse()) context_.messages.add_error(place, "the transformation here is not invertible");
+        if (!motion.start.inverse())
+            context_.messages.add_error(place, "the transformation here is not invertible");
         return Transform(motion.start);
     }
 
@@ -49,9 +51,10 @@ class SceneBuilder {
         if (objects_[i]) return objects_[i].get();
         const ObjectNode& node = description_.objects[i];
         if (depth >= Found::max_depth) {
-            context_.messages.add_error(node.place, fmt::format("object \"{}\" is nested more than {} deep, or contains "
-                                                                "itself",
-                                                                node.name, Found::max_depth));
+            context_.messages.add_error(node.place,
+                                        fmt::format("object \"{}\" is nested more than {} deep, or contains "
+                                                    "itself",
+                                                    node.name, Found::max_depth));
             return nullptr;
         }
         objects_[i] = make_object(description_.objects[i], depth);
@@ -65,8 +68,9 @@ class SceneBuilder {
             if (found == index_.end()) {
                 std::vector<std::string> names;
                 for (const ObjectNode& o : description_.objects) names.push_back(o.name);
-                context_.messages.add_error(instance.place, fmt::format("unknown object \"{}\"{}", instance.object,
-                                                                        did_you_mean(instance.object, names)));
+                context_.messages.add_error(instance.place,
+                                            fmt::format("unknown object \"{}\"{}", instance.object,
+                                                        did_you_mean(instance.object, names)));
                 continue;
             }
             PlacedObject placed;
@@ -83,7 +87,8 @@ class SceneBuilder {
     std::vector<PlacedShape> make_shapes(ObjectNode& node) {
         std::vector<PlacedShape> shapes(node.shapes.size());
         std::vector<Transform> placements;
-        for (const ShapeNode& s : node.shapes) placements.push_back(placement(s.world_from_object, s.node.place));
+        for (const ShapeNode& s : node.shapes)
+            placements.push_back(placement(s.world_from_object, s.node.place));
         parallel_for(shapes.size(), 1, [&](std::size_t i) {
             BuildContext context = context_;
             context.world_from_node = placements[i];
@@ -102,7 +107,8 @@ class SceneBuilder {
 
     const Material* material_of(const ShapeNode& shape) {
         if (shape.material >= 0) return materials_.at(static_cast<std::size_t>(shape.material));
-        if (shape.material_name.empty()) return materials_.at(materials_.size() - 1); // the default, built last
+        if (shape.material_name.empty())
+            return materials_.at(materials_.size() - 1); // the default, built last
         const Material* material = materials_.find(shape.material_name);
         if (!material)
             context_.messages.add_error(shape.node.place,
@@ -114,8 +120,9 @@ class SceneBuilder {
     void add_area_lights(const ObjectNode& object, const ShapeNode& node, PlacedShape& placed) {
         const Node& light_node = description_.area_lights[static_cast<std::size_t>(node.area_light)];
         if (&object != &description_.world) {
-            context_.messages.add_warning(node.node.place,
-                                          "area lights do not shine in objects that are instanced; this shape is dark");
+            context_.messages.add_warning(
+                node.node.place,
+                "area lights do not shine in objects that are instanced; this shape is dark");
             return;
         }
         auto pattern = area_light_kinds().make(light_node, context_, "");

@@ -28,8 +28,10 @@ std::function<std::vector<KindDoc>()> docs_of(const KindList<Family>& (*list)())
 
 const std::vector<FamilyInfo>& families() {
     static const std::vector<FamilyInfo> list{
-        {"integrator", "Integrator", "How the light that reaches the camera is computed.", docs_of(&integrator_kinds)},
-        {"camera", "Camera", "Where the picture is taken from, and through what lens.", docs_of(&camera_kinds)},
+        {"integrator", "Integrator", "How the light that reaches the camera is computed.",
+         docs_of(&integrator_kinds)},
+        {"camera", "Camera", "Where the picture is taken from, and through what lens.",
+         docs_of(&camera_kinds)},
         {"film", "Film", "How light becomes pixels.", docs_of(&film_kinds)},
         {"filter", "PixelFilter", "How far around a pixel its samples lie, and how they count.",
          docs_of(&filter_kinds)},
@@ -41,7 +43,8 @@ const std::vector<FamilyInfo>& families() {
         {"spectrum-texture", "Texture \"name\" \"spectrum\"", "Colours that vary over surfaces.",
          docs_of(&spectrum_texture_kinds)},
         {"light", "LightSource", "Where light comes from.", docs_of(&light_kinds)},
-        {"area-light", "AreaLightSource", "What makes the shapes that follow shine.", docs_of(&area_light_kinds)},
+        {"area-light", "AreaLightSource", "What makes the shapes that follow shine.",
+         docs_of(&area_light_kinds)},
     };
     return list;
 }

@@ -1,5 +1,5 @@
-/// Every family of things a scene can name, with its kinds as the manual documents them: the one list that help,
-/// the reference pages, overrides and tests read.
+/// Every family of things a scene can name, with its kinds as the manual documents them: the one list that
+/// help, the reference pages, overrides and tests read.
 #pragma once
 
 #include <functional>

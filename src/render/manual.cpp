@@ -12,7 +12,8 @@ std::string wrapped(const std::string& text, int columns, const std::string& ind
     std::istringstream words(text);
     std::string out, line = indent, word;
     while (words >> word) {
-        if (line.size() > indent.size() && line.size() + 1 + word.size() > static_cast<std::size_t>(columns)) {
+        if (line.size() > indent.size() &&
+            line.size() + 1 + word.size() > static_cast<std::size_t>(columns)) {
             out += line + "\n";
             line = indent;
         }
@@ -69,7 +70,8 @@ std::string range_and_unit(const FieldDoc& field) {
 } // namespace
 
 std::string kind_text(const FamilyInfo& family, const KindDoc& kind, int columns) {
-    std::string out = fmt::format("{} \"{}\"\n\n", family.directive, kind.name) + wrapped(kind.about, columns, "  ");
+    std::string out =
+        fmt::format("{} \"{}\"\n\n", family.directive, kind.name) + wrapped(kind.about, columns, "  ");
     if (!kind.fields.empty()) out += "\nParameters:\n";
     for (const FieldDoc& f : kind.fields) {
         out += fmt::format("  {}  ({}){}\n", f.name, f.type,
@@ -89,14 +91,15 @@ std::string family_text(const FamilyInfo& family) {
 }
 
 std::string family_markdown(const FamilyInfo& family) {
-    std::string out = fmt::format("# {}\n\n{} In a pbrt scene: `{} \"type\" ...`\n", family.name, family.about,
-                                  family.directive);
+    std::string out = fmt::format("# {}\n\n{} In a pbrt scene: `{} \"type\" ...`\n", family.name,
+                                  family.about, family.directive);
     for (const KindDoc& kind : family.kinds()) {
         out += fmt::format("\n## {}\n\n{}\n", kind.name, kind.about);
-        if (!kind.fields.empty()) out += "\n| parameter | type | default | meaning | range, unit |\n|---|---|---|---|---|\n";
+        if (!kind.fields.empty())
+            out += "\n| parameter | type | default | meaning | range, unit |\n|---|---|---|---|---|\n";
         for (const FieldDoc& f : kind.fields)
-            out += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.name, escaped(f.type), escaped(default_words(f)),
-                               escaped(f.meaning), range_and_unit(f));
+            out += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.name, escaped(f.type),
+                               escaped(default_words(f)), escaped(f.meaning), range_and_unit(f));
         for (const Example& e : kind.examples)
             out += fmt::format("\nExample, {}:\n\n```\n{}\n```\n", e.name, example_text(family, kind, e));
     }

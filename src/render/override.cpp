@@ -1,4 +1,5 @@
-/// Parameters set from the command line: the path names a node, the text is read as the parameter's declared type.
+/// Parameters set from the command line: the path names a node, the text is read as the parameter's declared
+/// type.
 #include <charconv>
 #include <sstream>
 
@@ -22,7 +23,8 @@ Node* find_named(List& list, const std::string& name, NodeOf node_of) {
         if (node_of(item).name == name) return &node_of(item);
     std::size_t index = 0;
     auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
-    if (error == std::errc{} && end == name.data() + name.size() && index < list.size()) return &node_of(list[index]);
+    if (error == std::errc{} && end == name.data() + name.size() && index < list.size())
+        return &node_of(list[index]);
     return nullptr;
 }
 
@@ -115,7 +117,9 @@ std::optional<KindDoc> find_doc(const std::string& family, const std::string& ty
 } // namespace
 
 void apply_override(SceneDescription& scene, const std::string& text, Messages& messages) {
-    auto fail = [&](const std::string& why) { messages.add_error({}, fmt::format("--set {}: {}", text, why)); };
+    auto fail = [&](const std::string& why) {
+        messages.add_error({}, fmt::format("--set {}: {}", text, why));
+    };
     auto equals = text.find('=');
     auto dot = text.rfind('.', equals);
     if (equals == std::string::npos || dot == std::string::npos || dot == 0)
@@ -125,9 +129,10 @@ void apply_override(SceneDescription& scene, const std::string& text, Messages& 
 
     Target target = find_target(scene, path);
     if (!target.node)
-        return fail(fmt::format("the scene has no \"{}\"; one can set integrator, camera, film, filter, sampler, "
-                                "material.NAME, texture.NAME, light.NUMBER, area-light.NUMBER, shape.NUMBER",
-                                path));
+        return fail(
+            fmt::format("the scene has no \"{}\"; one can set integrator, camera, film, filter, sampler, "
+                        "material.NAME, texture.NAME, light.NUMBER, area-light.NUMBER, shape.NUMBER",
+                        path));
     if (target.node->type.empty()) target.node->type = default_type(target.family);
     auto doc = find_doc(target.family, target.node->type);
     if (!doc) return; // the unknown type is reported when the scene is built

@@ -29,7 +29,8 @@ struct Worker {
 class Renderer {
   public:
     Renderer(World& world, const RenderSettings& settings, const RenderWatch& watch)
-        : world_(world), watch_(watch), pixels_(world.film->pixels()), tile_size_(std::max(1, settings.tile_size)),
+        : world_(world), watch_(watch), pixels_(world.film->pixels()),
+          tile_size_(std::max(1, settings.tile_size)),
           tiles_x_((pixels_.width() + tile_size_ - 1) / tile_size_),
           tiles_y_((pixels_.height() + tile_size_ - 1) / tile_size_) {
         centred_ = world.spp == 1 && world.integrator->centres_single_samples();
@@ -60,8 +61,8 @@ class Renderer {
         });
     }
 
-    // Passes of about a second: short enough to stop after, long enough not to wait at their ends. How the samples
-    // are divided into passes does not change the image.
+    // Passes of about a second: short enough to stop after, long enough not to wait at their ends. How the
+    // samples are divided into passes does not change the image.
     int next_pass_size() const {
         int left = world_.spp - done_;
         if (done_ == 0) return std::min(left, 1);
@@ -143,9 +144,11 @@ class Renderer {
             s.bad_samples += w.bad_samples;
             s.first_bad_samples.insert(s.first_bad_samples.end(), w.bad.begin(), w.bad.end());
         }
-        std::sort(s.first_bad_samples.begin(), s.first_bad_samples.end(), [](const BadSample& a, const BadSample& b) {
-            return std::tie(a.pixel.y, a.pixel.x, a.sample) < std::tie(b.pixel.y, b.pixel.x, b.sample);
-        });
+        std::sort(s.first_bad_samples.begin(), s.first_bad_samples.end(),
+                  [](const BadSample& a, const BadSample& b) {
+                      return std::tie(a.pixel.y, a.pixel.x, a.sample) <
+                             std::tie(b.pixel.y, b.pixel.x, b.sample);
+                  });
         if (s.first_bad_samples.size() > 10) s.first_bad_samples.resize(10);
         return s;
     }

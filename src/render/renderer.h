@@ -1,4 +1,5 @@
-/// Rendering: passes of tiles, each adding samples to its own pixels, until all are there or someone says stop.
+/// Rendering: passes of tiles, each adding samples to its own pixels, until all are there or someone says
+/// stop.
 #pragma once
 
 #include <atomic>
@@ -13,10 +14,10 @@
 namespace alhazen {
 
 struct Progress {
-    int samples_done = 0;  ///< per pixel, passes that are finished
+    int samples_done = 0; ///< per pixel, passes that are finished
     int samples_total = 0;
-    double fraction = 0;   ///< of all the work, unfinished tiles counted in
-    double seconds = 0;    ///< since rendering began
+    double fraction = 0; ///< of all the work, unfinished tiles counted in
+    double seconds = 0;  ///< since rendering began
     double seconds_left = 0;
     double rays_per_second = 0; ///< 0 until the first pass is finished
 };
@@ -44,8 +45,8 @@ struct RenderWatch {
     const std::atomic<bool>* cancel = nullptr;
 };
 
-/// Renders into world.film on settings.threads threads. The image depends on the scene and the seed only: not on
-/// threads, tile size, passes or what else the machine does.
+/// Renders into world.film on settings.threads threads. The image depends on the scene and the seed only: not
+/// on threads, tile size, passes or what else the machine does.
 RenderStats render(World& world, const RenderSettings& settings, const RenderWatch& watch);
 
 } // namespace alhazen

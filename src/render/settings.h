@@ -13,15 +13,15 @@ namespace alhazen {
 
 /// Unset members leave the scene's own values.
 struct RenderSettings {
-    std::optional<int> spp;          ///< samples per pixel
-    std::optional<Vec2i> size;       ///< film resolution, pixels
-    std::optional<Rect2i> crop;      ///< pixels to render, of the full film
-    std::string integrator;          ///< replaces the scene's, which keeps the parameters both know
-    std::string camera;              ///< by name
+    std::optional<int> spp;     ///< samples per pixel
+    std::optional<Vec2i> size;  ///< film resolution, pixels
+    std::optional<Rect2i> crop; ///< pixels to render, of the full film
+    std::string integrator;     ///< replaces the scene's, which keeps the parameters both know
+    std::string camera;         ///< by name
     std::optional<std::uint64_t> seed;
-    int threads = 0;                 ///< 0: all
-    std::optional<ColorMode> color;  ///< default: spectral, but rgb for integrators that are defined in it
-    int tile_size = 16;              ///< pixels; does not change the image
+    int threads = 0;                ///< 0: all
+    std::optional<ColorMode> color; ///< default: spectral, but rgb for integrators that are defined in it
+    int tile_size = 16;             ///< pixels; does not change the image
     /// "integrator.maxdepth=3", "material.Floor.reflectance=.5 .4 .3"
     std::vector<std::string> overrides;
 };

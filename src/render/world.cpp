@@ -26,14 +26,15 @@ Node replaced_kind(const KindList<Family>& kinds, Node node, const std::string& 
     }
     KindDoc doc = kind->doc();
     std::erase_if(node.parameters, [&](const Parameter& p) {
-        return std::none_of(doc.fields.begin(), doc.fields.end(), [&](const FieldDoc& f) { return f.name == p.name; });
+        return std::none_of(doc.fields.begin(), doc.fields.end(),
+                            [&](const FieldDoc& f) { return f.name == p.name; });
     });
     node.type = type;
     return node;
 }
 
-std::unique_ptr<Integrator> make_integrator(const SceneDescription& description, const RenderSettings& settings,
-                                            BuildContext& context) {
+std::unique_ptr<Integrator> make_integrator(const SceneDescription& description,
+                                            const RenderSettings& settings, BuildContext& context) {
     Node node = with_default(description.integrator, "path");
     if (!settings.integrator.empty())
         node = replaced_kind(integrator_kinds(), std::move(node), settings.integrator, context.messages);
@@ -49,9 +50,10 @@ std::unique_ptr<Film> make_film(const SceneDescription& description, const Rende
         Vec2i full = film->resolution();
         Rect2i r = *settings.crop;
         if (r.lo.x < 0 || r.lo.y < 0 || r.hi.x > full.x || r.hi.y > full.y || r.empty())
-            context.messages.add_error({}, fmt::format("--crop {},{},{},{} is empty or outside the film of {} x {} "
-                                                       "pixels",
-                                                       r.lo.x, r.lo.y, r.hi.x, r.hi.y, full.x, full.y));
+            context.messages.add_error(
+                {}, fmt::format("--crop {},{},{},{} is empty or outside the film of {} x {} "
+                                "pixels",
+                                r.lo.x, r.lo.y, r.hi.x, r.hi.y, full.x, full.y));
         else
             film->set_pixels(r);
     }
@@ -115,7 +117,8 @@ void choose_color_mode(World& world, const RenderSettings& settings, Messages& m
 
 } // namespace
 
-std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings, Messages& messages) {
+std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings,
+                                   Messages& messages) {
     for (const std::string& text : settings.overrides) apply_override(description, text, messages);
     messages.throw_if_errors();
 

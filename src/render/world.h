@@ -31,7 +31,8 @@ struct World {
 };
 
 /// Builds the world; throws SceneError with every error found. Warnings stay in messages.
-std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings, Messages& messages);
+std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings,
+                                   Messages& messages);
 
 /// Applies "family.parameter=value", "material.NAME.parameter=value", "light.NUMBER.parameter=value",
 /// "texture.NAME.parameter=value" or "camera.parameter=value" to the description. Errors go to messages.

@@ -6,8 +6,9 @@ namespace alhazen {
 
 namespace {
 
-/// The ray in the instance's space. Its origin is moved forward, to the edge of the rounding error of transforming
-/// it, so that it does not meet the surface it was moved off in world space; shift is by how much of t.
+/// The ray in the instance's space. Its origin is moved forward, to the edge of the rounding error of
+/// transforming it, so that it does not meet the surface it was moved off in world space; shift is by how
+/// much of t.
 Ray ray_into(const PlacedObject& instance, const Ray& ray, float& shift) {
     Ray local = instance.object_from_world.ray(ray);
     Vec3 error = instance.object_from_world.point_error(ray.o, Vec3{});
@@ -18,7 +19,8 @@ Ray ray_into(const PlacedObject& instance, const Ray& ray, float& shift) {
     return local;
 }
 
-std::vector<Bounds3> bounds_of(const std::vector<PlacedShape>& shapes, const std::vector<PlacedObject>& instances) {
+std::vector<Bounds3> bounds_of(const std::vector<PlacedShape>& shapes,
+                               const std::vector<PlacedObject>& instances) {
     std::vector<Bounds3> bounds;
     for (const PlacedShape& s : shapes)
         for (std::uint32_t i = 0; i < s.shape->primitive_count(); ++i) bounds.push_back(s.shape->bounds(i));
@@ -44,7 +46,8 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
     primitives_.reserve(bvh_.primitive_count());
     for (const PlacedShape& placed : shapes_) {
         const FloatTexture& alpha = placed.shape->alpha;
-        leaves_.push_back({placed.shape.get(), placed.shape->triangles(), alpha.is_constant() && alpha.constant() >= 1,
+        leaves_.push_back({placed.shape.get(), placed.shape->triangles(),
+                           alpha.is_constant() && alpha.constant() >= 1,
                            placed.material && placed.material->is_interface()});
     }
     for (std::uint32_t s = 0; s < shapes_.size(); ++s)
@@ -52,7 +55,8 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
     for (std::uint32_t i = 0; i < instances_.size(); ++i) primitives_.push_back({instance_mark, i});
 }
 
-bool Object::meets(const Ray& ray, const RayShear& shear, const Primitive& primitive, Intersection& hit) const {
+bool Object::meets(const Ray& ray, const RayShear& shear, const Primitive& primitive,
+                   Intersection& hit) const {
     const Leaf& leaf = leaves_[primitive.shape];
     bool met = leaf.mesh ? leaf.mesh->intersect_with(ray, shear, primitive.primitive, hit)
                          : leaf.shape->intersect(ray, primitive.primitive, hit);
@@ -62,7 +66,8 @@ bool Object::meets(const Ray& ray, const RayShear& shear, const Primitive& primi
 // Chance decides between solid and absent, by a hash of the ray: the same ray always sees the same surface.
 bool Object::alpha_passes(const Ray& ray, const Primitive& primitive, const Intersection& hit) const {
     const PlacedShape& placed = shapes_[primitive.shape];
-    float alpha = placed.shape->alpha.eval(TexturePoint(placed.shape->surface(ray, primitive.primitive, hit)));
+    float alpha =
+        placed.shape->alpha.eval(TexturePoint(placed.shape->surface(ray, primitive.primitive, hit)));
     if (alpha >= 1) return true;
     if (!(alpha > 0)) return false;
     auto bits = [](float f) { return std::bit_cast<std::uint32_t>(f); };
@@ -82,7 +87,8 @@ void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth,
     Intersection nearest;
     float best_t = infinity;
     std::uint32_t best = no_primitive;
-    // Of hits at the same distance the first primitive counts, as in the walk, so that found follows the walk.
+    // Of hits at the same distance the first primitive counts, as in the walk, so that found follows the
+    // walk.
     auto accept = [&](float t, std::uint32_t index) {
         if (!(t < best_t || (t == best_t && index < best))) return false;
         best_t = t;

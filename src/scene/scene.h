@@ -21,8 +21,8 @@ struct SceneCounts {
 
 class Scene {
   public:
-    /// root is the last object of the list; it holds what is in the scene itself. Lights must outlive the scene's
-    /// parts that refer to them, so the scene owns both.
+    /// root is the last object of the list; it holds what is in the scene itself. Lights must outlive the
+    /// scene's parts that refer to them, so the scene owns both.
     Scene(std::vector<std::unique_ptr<Object>> objects, std::vector<std::unique_ptr<Light>> lights);
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -37,7 +37,9 @@ class Scene {
     std::span<const Light* const> infinite_lights() const { return infinite_; }
     /// Must be called before choose_light: name is one of light_chooser_names().
     void set_light_chooser(std::string_view name);
-    std::optional<ChosenLight> choose_light(const LightReceiver& at, float u) const { return chooser_->choose(at, u); }
+    std::optional<ChosenLight> choose_light(const LightReceiver& at, float u) const {
+        return chooser_->choose(at, u);
+    }
     float light_probability(const LightReceiver& at, const Light* light) const {
         return chooser_->probability(at, light);
     }

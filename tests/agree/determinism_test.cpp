@@ -1,5 +1,5 @@
-/// The same scene, settings and seed give the same bits: on 1, 2 and 3 threads, with other tile sizes, cropped, and
-/// stopped after some passes.
+/// The same scene, settings and seed give the same bits: on 1, 2 and 3 threads, with other tile sizes,
+/// cropped, and stopped after some passes.
 #include <gtest/gtest.h>
 
 #include "tests/support/render_scene.h"

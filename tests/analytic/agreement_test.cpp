@@ -1,6 +1,6 @@
-/// Integrators agree: on scenes that no formula gives, the path tracer, the same with other light samplers and the
-/// simple path tracers converge to one mean. Welch's t-test over 16 seeds each, |t| < 7: a false-alarm rate of about
-/// 4e-6 a comparison; fixed seeds.
+/// Integrators agree: on scenes that no formula gives, the path tracer, the same with other light samplers
+/// and the simple path tracers converge to one mean. Welch's t-test over 16 seeds each, |t| < 7: a
+/// false-alarm rate of about 4e-6 a comparison; fixed seeds.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,16 +24,18 @@ const std::vector<Method>& methods() {
         {"path uniform", R"(Integrator "path" "integer maxdepth" 4 "string lightsampler" "uniform")", 32},
         {"path power", R"(Integrator "path" "integer maxdepth" 4 "string lightsampler" "power")", 32},
         {"simplepath", R"(Integrator "simplepath" "integer maxdepth" 4)", 64},
-        {"simplepath without light sampling", R"(Integrator "simplepath" "integer maxdepth" 4 "bool samplelights" false)",
-         256},
-        {"simplepath uniform directions", R"(Integrator "simplepath" "integer maxdepth" 4 "bool samplebsdf" false)", 256},
+        {"simplepath without light sampling",
+         R"(Integrator "simplepath" "integer maxdepth" 4 "bool samplelights" false)", 256},
+        {"simplepath uniform directions",
+         R"(Integrator "simplepath" "integer maxdepth" 4 "bool samplebsdf" false)", 256},
         {"randomwalk", R"(Integrator "randomwalk" "integer maxdepth" 4)", 512},
     };
     return list;
 }
 
 std::vector<double> means_of(const Method& method, const std::string& world, ColorMode mode) {
-    std::string text = method.integrator + fmt::format(R"(
+    std::string text = method.integrator +
+                       fmt::format(R"(
 Sampler "independent" "integer pixelsamples" {}
 PixelFilter "box"
 Film "rgb" "integer xresolution" 12 "integer yresolution" 12
@@ -41,7 +43,7 @@ LookAt 0 1 -3.4  0 .9 0  0 1 0
 Camera "perspective" "float fov" 36
 WorldBegin
 )",
-                                                       method.spp) +
+                                   method.spp) +
                        world;
     std::vector<double> means;
     for (int seed = 0; seed < seeds; ++seed) {
@@ -67,8 +69,9 @@ void expect_agreement(const std::string& world, ColorMode mode, bool walk_can_se
     ASSERT_GT(moments(reference).mean, 0.01);
     for (std::size_t i = 1; i < methods().size(); ++i) {
         const Method& method = methods()[i];
-        if (!walk_can_see_it && (method.name == "randomwalk" || method.name == "simplepath without light sampling" ||
-                                 method.name == "simplepath uniform directions"))
+        if (!walk_can_see_it &&
+            (method.name == "randomwalk" || method.name == "simplepath without light sampling" ||
+             method.name == "simplepath uniform directions"))
             continue;
         EXPECT_LT(std::abs(t_between(means_of(method, world, mode), reference, 1e-4)), limit) << method.name;
     }

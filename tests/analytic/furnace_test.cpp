@@ -1,6 +1,6 @@
-/// Scenes whose picture is known on paper, rendered by every integrator that can see them, in both colour modes, with
-/// every sampler. Each is a Student's t-test over 16 independent seeds (15 degrees of freedom) at |t| < 7, a
-/// false-alarm rate of 4e-6 a comparison; the seeds are fixed, so a passing test stays passing.
+/// Scenes whose picture is known on paper, rendered by every integrator that can see them, in both colour
+/// modes, with every sampler. Each is a Student's t-test over 16 independent seeds (15 degrees of freedom) at
+/// |t| < 7, a false-alarm rate of 4e-6 a comparison; the seeds are fixed, so a passing test stays passing.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,8 @@ Film "rgb" "integer xresolution" 8 "integer yresolution" 8
 Camera "perspective" "float fov" 40
 WorldBegin
 )",
-                       c.integrator, depth, c.sampler, c.sampler == "stratified" ? "xsamples" : "pixelsamples", spp);
+                       c.integrator, depth, c.sampler,
+                       c.sampler == "stratified" ? "xsamples" : "pixelsamples", spp);
 }
 
 class Furnace : public ::testing::TestWithParam<Case> {};
@@ -61,8 +62,8 @@ Shape "sphere" "float radius" 2
     EXPECT_LT(std::abs(t_against(green_means(text, settings), 1 - std::pow(2.0, -10), 1e-3)), limit);
 }
 
-// A uniform sky of radiance 1 over a diffuse sphere of albedo rho: a convex body reflects no light to itself, so
-// each point shows rho and the sky shows 1. The camera looks at the sphere only.
+// A uniform sky of radiance 1 over a diffuse sphere of albedo rho: a convex body reflects no light to itself,
+// so each point shows rho and the sky shows 1. The camera looks at the sphere only.
 TEST_P(Furnace, DiffuseSphereUnderAUniformSky) {
     std::string text = header(GetParam(), 4, 16) + R"(
 LightSource "infinite" "rgb L" [ 1 1 1 ]
@@ -78,7 +79,8 @@ Shape "sphere" "float radius" 2
 std::vector<Case> all_cases() {
     std::vector<Case> cases;
     for (const char* integrator : {"path", "simplepath", "randomwalk"})
-        for (ColorMode mode : {ColorMode::rgb, ColorMode::spectral}) cases.push_back({integrator, "zsobol", mode});
+        for (ColorMode mode : {ColorMode::rgb, ColorMode::spectral})
+            cases.push_back({integrator, "zsobol", mode});
     for (const std::string& sampler : sampler_kinds().names())
         if (sampler != "zsobol") cases.push_back({"path", sampler, ColorMode::spectral});
     return cases;
@@ -87,11 +89,11 @@ std::vector<Case> all_cases() {
 INSTANTIATE_TEST_SUITE_P(All, Furnace, ::testing::ValuesIn(all_cases()),
                          [](const auto& test) { return ::testing::PrintToString(test.param); });
 
-// A mirror and a lossless glass sphere in a uniform sky are invisible: everything shows 1. Needs paths long enough
-// that almost no light is left inside the glass.
+// A mirror and a lossless glass sphere in a uniform sky are invisible: everything shows 1. Needs paths long
+// enough that almost no light is left inside the glass.
 TEST(FurnaceSpecular, MirrorAndGlassVanishInAUniformSky) {
-    for (const char* material : {R"("conductor" "spectrum reflectance" "x")", R"("dielectric" "float eta" 1.5)",
-                                 R"("thindielectric" "float eta" 1.5)"}) {
+    for (const char* material : {R"("conductor" "spectrum reflectance" "x")",
+                                 R"("dielectric" "float eta" 1.5)", R"("thindielectric" "float eta" 1.5)"}) {
         std::string line(material);
         if (line.find("conductor") != std::string::npos) line = R"("conductor" "rgb reflectance" [ 1 1 1 ])";
         std::string text = header({"path", "zsobol", ColorMode::rgb}, 60, 16) +
@@ -121,9 +123,9 @@ Shape "disk" "float radius" 100
     }
 }
 
-// In a corner of two half planes at a right angle, a point on the floor sees what the wall leaves of the sky. At
-// distance a from a wall of height h (infinitely wide): occluded fraction of the cosine-weighted hemisphere is
-// (1 - cos(atan(h / a))) / 2. Here a = 1, h = 1: 1 - (1 - 1/sqrt 2)/2.
+// In a corner of two half planes at a right angle, a point on the floor sees what the wall leaves of the sky.
+// At distance a from a wall of height h (infinitely wide): occluded fraction of the cosine-weighted
+// hemisphere is (1 - cos(atan(h / a))) / 2. Here a = 1, h = 1: 1 - (1 - 1/sqrt 2)/2.
 TEST(AmbientOcclusion, WallBlocksItsViewFactor) {
     std::string text = R"(
 Integrator "ambientocclusion"

@@ -1,6 +1,6 @@
-/// The Whitted integrator against an independent implementation: a GNU Octave script in double precision, written from
-/// the equations. The float renderer may differ by more than 1e-3 in at most 0.1 % of the pixels, and only on
-/// silhouettes and shadow edges, which the script marks.
+/// The Whitted integrator against an independent implementation: a GNU Octave script in double precision,
+/// written from the equations. The float renderer may differ by more than 1e-3 in at most 0.1 % of the
+/// pixels, and only on silhouettes and shadow edges, which the script marks.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -32,15 +32,17 @@ std::vector<char> read_mask(const std::filesystem::path& file, int width, int he
 class WhittedOracle : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(WhittedOracle, DiffersOnlyOnEdges) {
-    if (std::system("command -v octave-cli > /dev/null 2>&1") != 0) GTEST_SKIP() << "GNU Octave is not installed";
+    if (std::system("command -v octave-cli > /dev/null 2>&1") != 0)
+        GTEST_SKIP() << "GNU Octave is not installed";
     std::filesystem::path source(ALHAZEN_SOURCE_DIR), folder(ALHAZEN_BINARY_DIR "/oracle");
     std::filesystem::create_directories(folder);
     std::filesystem::path scene = source / "scenes" / (std::string(GetParam()) + ".pbrt");
     std::filesystem::path picture = folder / (std::string(GetParam()) + ".pfm");
     std::filesystem::path mask_file = folder / (std::string(GetParam()) + ".pgm");
-    std::string command = fmt::format("cd '{}' && octave-cli --norc '{}' '{}' '{}' '{}' > '{}' 2>&1", folder.string(),
-                                      (source / "tests/oracle/whitted_oracle.m").string(), scene.string(),
-                                      picture.string(), mask_file.string(), (folder / "log.txt").string());
+    std::string command =
+        fmt::format("cd '{}' && octave-cli --norc '{}' '{}' '{}' '{}' > '{}' 2>&1", folder.string(),
+                    (source / "tests/oracle/whitted_oracle.m").string(), scene.string(), picture.string(),
+                    mask_file.string(), (folder / "log.txt").string());
     ASSERT_EQ(std::system(command.c_str()), 0) << "see " << folder / "log.txt";
 
     Image oracle = read_image(picture);
@@ -60,7 +62,8 @@ TEST_P(WhittedOracle, DiffersOnlyOnEdges) {
     EXPECT_EQ(off_edges, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, WhittedOracle, ::testing::Values("whitted-spheres", "nested-glass", "several-lights"),
+INSTANTIATE_TEST_SUITE_P(Scenes, WhittedOracle,
+                         ::testing::Values("whitted-spheres", "nested-glass", "several-lights"),
                          [](const auto& test) {
                              std::string name = test.param;
                              for (char& c : name)

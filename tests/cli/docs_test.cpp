@@ -1,5 +1,5 @@
-/// Every command in the README and the docs is run, in the order of the page. Lines that start with make are checked to
-/// be targets of the Makefile (running them would build within the build).
+/// Every command in the README and the docs is run, in the order of the page. Lines that start with make are
+/// checked to be targets of the Makefile (running them would build within the build).
 #include <vector>
 
 #include "tests/cli/program.h"
@@ -41,8 +41,8 @@ TEST_P(Docs, EveryCommandWorks) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, Docs,
-                         ::testing::Values("README.md", "docs/tour.md", "docs/architecture.md", "docs/contributing.md",
-                                           "docs/dependencies.md"),
+                         ::testing::Values("README.md", "docs/tour.md", "docs/architecture.md",
+                                           "docs/contributing.md", "docs/dependencies.md"),
                          [](const auto& test) {
                              std::string name = std::filesystem::path(test.param).stem().string();
                              return name;

@@ -28,8 +28,8 @@ struct Commands : ProgramTest {
 TEST_F(Commands, InfoTellsWhatIsThere) {
     Outcome o = alhazen("info scene.pbrt");
     ASSERT_EQ(o.exit_code, 0) << o.err;
-    for (const char* text : {"32 x 24, 4 spp", "1 sphere", "1 diffuse", "1 infinite, 1 point", "bounds       (-1, -1, -1) to (1, 1, 1)",
-                             "memory"})
+    for (const char* text : {"32 x 24, 4 spp", "1 sphere", "1 diffuse", "1 infinite, 1 point",
+                             "bounds       (-1, -1, -1) to (1, 1, 1)", "memory"})
         EXPECT_THAT(o.out, HasSubstr(text));
     auto json = nlohmann::json::parse(alhazen("info scene.pbrt --json").out);
     EXPECT_EQ(json["primitives"], 1);

@@ -40,13 +40,16 @@ class ProgramTest : public ::testing::Test {
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
     Outcome shell(const std::string& command) {
-        std::string line = fmt::format("cd '{}' && ( {} ) > out.txt 2> err.txt < /dev/null", folder_.string(), command);
+        std::string line =
+            fmt::format("cd '{}' && ( {} ) > out.txt 2> err.txt < /dev/null", folder_.string(), command);
         int status = std::system(line.c_str());
         Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(folder_ / "out.txt"),
                   file_text(folder_ / "err.txt")};
         return o;
     }
-    Outcome alhazen(const std::string& arguments) { return shell(std::string(ALHAZEN_PROGRAM) + " " + arguments); }
+    Outcome alhazen(const std::string& arguments) {
+        return shell(std::string(ALHAZEN_PROGRAM) + " " + arguments);
+    }
 
     void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
     bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
@@ -56,7 +59,8 @@ class ProgramTest : public ::testing::Test {
     void write_scene(const std::string& film = "") {
         write("scene.pbrt", R"(Integrator "path" "integer maxdepth" 3
 Sampler "zsobol" "integer pixelsamples" 4
-Film "rgb" "integer xresolution" 32 "integer yresolution" 24 )" + film + R"(
+Film "rgb" "integer xresolution" 32 "integer yresolution" 24 )" +
+                                film + R"(
 LookAt 0 0 -5  0 0 0  0 1 0
 Camera "perspective" "float fov" 40 "string name" "front"
 Identity

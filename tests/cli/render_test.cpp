@@ -88,8 +88,8 @@ TEST_F(Render, CameraIntegratorColorAndSet) {
 TEST_F(Render, StatsAreJson) {
     ASSERT_EQ(alhazen("render scene.pbrt -o a.png --stats s.json --threads 1").exit_code, 0);
     auto stats = nlohmann::json::parse(file_text(path("s.json")));
-    for (const char* key : {"load_seconds", "build_seconds", "render_seconds", "mrays_per_second", "peak_memory_bytes",
-                            "triangles", "warnings", "non_finite_samples"})
+    for (const char* key : {"load_seconds", "build_seconds", "render_seconds", "mrays_per_second",
+                            "peak_memory_bytes", "triangles", "warnings", "non_finite_samples"})
         EXPECT_TRUE(stats.contains(key)) << key;
     EXPECT_EQ(stats["rays"]["camera"], 32 * 24 * 4);
     EXPECT_EQ(stats["samples_per_pixel"], 4);
@@ -134,7 +134,8 @@ TEST_F(Render, ArgumentsThatAreWrong) {
     expect_error("render scene.pbrt --crop 1,2,3", "\"1,2,3\" is not a crop");
     expect_error("render scene.pbrt --crop 0,0,100,100", "outside the film of 32 x 24 pixels");
     expect_error("render scene.pbrt --integrator pth", "unknown integrator \"pth\" (did you mean \"path\"?)");
-    expect_error("render scene.pbrt --camera fornt", "no camera is named \"fornt\" (did you mean \"front\"?)");
+    expect_error("render scene.pbrt --camera fornt",
+                 "no camera is named \"fornt\" (did you mean \"front\"?)");
     expect_error("render scene.pbrt --seed x", "--seed");
     expect_error("render scene.pbrt --threads -1", "--threads");
     expect_error("render scene.pbrt --tile-size 0", "--tile-size");
@@ -143,7 +144,8 @@ TEST_F(Render, ArgumentsThatAreWrong) {
     expect_error("render scene.pbrt --set maxdepth=3", "write it as FAMILY.PARAMETER=VALUE");
     expect_error("render scene.pbrt --set integrator.maxdept=3",
                  "integrator \"path\" has no parameter \"maxdept\" (did you mean \"maxdepth\"?)");
-    expect_error("render scene.pbrt --set integrator.maxdepth=deep", "\"deep\" is not a value of type integer");
+    expect_error("render scene.pbrt --set integrator.maxdepth=deep",
+                 "\"deep\" is not a value of type integer");
     expect_error("render scene.pbrt --set material.Wax.reflectance=1", "the scene has no \"material.Wax\"");
     expect_error("render scene.pbrt --frobnicate", "--frobnicate");
     expect_error("rendr scene.pbrt", "subcommand");

@@ -1,6 +1,6 @@
-/// Small renders against images kept beside this test, so that no change of the picture goes unseen. The images were
-/// looked at when they were made; to make them anew after a change that is meant, run this test with
-/// ALHAZEN_WRITE_GOLDEN=1 and look at them again.
+/// Small renders against images kept beside this test, so that no change of the picture goes unseen. The
+/// images were looked at when they were made; to make them anew after a change that is meant, run this test
+/// with ALHAZEN_WRITE_GOLDEN=1 and look at them again.
 #include <cstdlib>
 
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ void PrintTo(const Golden& g, std::ostream* out) {
 
 class GoldenRender : public ::testing::TestWithParam<Golden> {};
 
-// Compilers and processors may round sums differently, which moves a ray here and there over an edge: a relMSE of
-// 1e-3 is far below the noise between two seeds (about 1e-1 at these sample counts).
+// Compilers and processors may round sums differently, which moves a ray here and there over an edge: a
+// relMSE of 1e-3 is far below the noise between two seeds (about 1e-1 at these sample counts).
 TEST_P(GoldenRender, LooksAsItDid) {
     const Golden& g = GetParam();
     RenderSettings settings;

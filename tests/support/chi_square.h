@@ -11,8 +11,8 @@
 
 namespace alhazen::testing_support {
 
-/// Upper regularised incomplete gamma function Q(a, x), a > 0, x >= 0: by its series where that converges fast,
-/// else by its continued fraction (Abramowitz and Stegun 1964, 6.5.29 and 6.5.31; Lentz's method).
+/// Upper regularised incomplete gamma function Q(a, x), a > 0, x >= 0: by its series where that converges
+/// fast, else by its continued fraction (Abramowitz and Stegun 1964, 6.5.29 and 6.5.31; Lentz's method).
 inline double gamma_q(double a, double x) {
     if (x <= 0) return 1;
     double front = std::exp(-x + a * std::log(x) - std::lgamma(a));
@@ -60,7 +60,8 @@ inline ChiSquareResult chi_square_test(std::span<const double> observed, std::sp
                                        double min_expected = 5) {
     std::vector<std::size_t> order(observed.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return expected[a] < expected[b]; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return expected[a] < expected[b]; });
     ChiSquareResult result;
     int cells = 0;
     double pooled_observed = 0, pooled_expected = 0;
@@ -82,7 +83,8 @@ inline ChiSquareResult chi_square_test(std::span<const double> observed, std::sp
     }
     if (pooled_observed > 0 || pooled_expected > 0) close_pool();
     result.degrees = std::max(1, cells - 1);
-    result.p_value = std::isfinite(result.statistic) ? chi_square_p_value(result.statistic, result.degrees) : 0;
+    result.p_value =
+        std::isfinite(result.statistic) ? chi_square_p_value(result.statistic, result.degrees) : 0;
     return result;
 }
 

@@ -21,8 +21,8 @@ inline Moments moments(const std::vector<double>& samples) {
     return m;
 }
 
-/// Student's t of the samples' mean against an exact value. floor is added to the standard error: the relative
-/// rounding error of float arithmetic, for estimators without variance.
+/// Student's t of the samples' mean against an exact value. floor is added to the standard error: the
+/// relative rounding error of float arithmetic, for estimators without variance.
 inline double t_against(const std::vector<double>& samples, double exact, double floor = 1e-5) {
     Moments m = moments(samples);
     return (m.mean - exact) / (std::sqrt(m.variance_of_mean) + floor * std::abs(exact));
@@ -31,7 +31,8 @@ inline double t_against(const std::vector<double>& samples, double exact, double
 /// Welch's t between two sets of independent samples.
 inline double t_between(const std::vector<double>& a, const std::vector<double>& b, double floor = 1e-5) {
     Moments ma = moments(a), mb = moments(b);
-    return (ma.mean - mb.mean) / (std::sqrt(ma.variance_of_mean + mb.variance_of_mean) + floor * std::abs(mb.mean));
+    return (ma.mean - mb.mean) /
+           (std::sqrt(ma.variance_of_mean + mb.variance_of_mean) + floor * std::abs(mb.mean));
 }
 
 } // namespace alhazen::testing

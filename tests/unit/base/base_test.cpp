@@ -36,7 +36,8 @@ TEST(Frame, TangentAlongTheNormalStillGivesAFrame) {
 }
 
 TEST(Transform, InverseUndoesAndNormalsStayPerpendicular) {
-    Transform t(Matrix4::translate({1, 2, 3}) * Matrix4::rotate(40, {1, 2, -1}) * Matrix4::scale({2, 3, -.5}));
+    Transform t(Matrix4::translate({1, 2, 3}) * Matrix4::rotate(40, {1, 2, -1}) *
+                Matrix4::scale({2, 3, -.5}));
     EXPECT_TRUE(t.swaps_handedness());
     Rng rng(2);
     for (int i = 0; i < 100; ++i) {
