@@ -31,6 +31,9 @@ struct BilinearMesh final : Shape {
     float area(std::uint32_t patch) const override { return static_cast<float>(geometry(patch).area()); }
     ShapeSample sample(std::uint32_t patch, Vec2 u) const override;
     NormalCone normals(std::uint32_t patch) const override;
+    std::size_t bytes() const override {
+        return array_bytes(P) + array_bytes(N) + array_bytes(uv) + array_bytes(indices);
+    }
 
   private:
     std::size_t corner(std::uint32_t patch, int i) const {

@@ -32,6 +32,11 @@ struct MeshChecks {
     void error(const std::string& text) const;
 };
 
+template <class T>
+std::size_t array_bytes(const std::vector<T>& array) {
+    return array.capacity() * sizeof(T);
+}
+
 /// In double precision: what is lost is half a unit in the last place, even where large translations cancel.
 void positions_to_world(std::vector<Vec3>& positions, const Transform& world_from_object);
 /// By the inverse transpose, keeping lengths as they come; turned over when reversed.

@@ -59,6 +59,9 @@ struct Shape {
     /// The mesh, when the primitives are triangles: scenes test those without a virtual call a triangle.
     virtual const TriangleMesh* triangles() const { return nullptr; }
 
+    /// Memory of the shape's arrays.
+    virtual std::size_t bytes() const { return 0; }
+
     /// Fraction of the surface that is there: 1 solid, 0 not there; between, by chance.
     FloatTexture alpha{1.0f};
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "shapes/mesh_arrays.h"
 #include "shapes/shape.h"
 #include "shapes/triangle.h"
 
@@ -41,6 +42,9 @@ struct TriangleMesh : Shape {
     float pdf_from(std::uint32_t triangle, Vec3 reference, const Hit& hit, Vec3 wi) const final;
     NormalCone normals(std::uint32_t triangle) const final;
     const TriangleMesh* triangles() const final { return this; }
+    std::size_t bytes() const final {
+        return array_bytes(P) + array_bytes(N) + array_bytes(S) + array_bytes(uv) + array_bytes(indices);
+    }
 
   protected:
     /// Checks the arrays against each other, takes them to world space and sets the orientation. Adds errors

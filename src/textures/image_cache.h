@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <tuple>
+#include <vector>
 
 #include "textures/texels.h"
 
@@ -30,16 +31,21 @@ class ImageCache {
     void clear();
     /// Images read so far.
     std::size_t decoded() const { return decoded_; }
+    /// Memory of the images kept here and of the texels that textures still hold, each counted once.
+    std::size_t bytes() const;
 
   private:
     using ImageKey = std::tuple<std::string, Encoding::Kind, float>;
     using ColorKey = std::tuple<ImageKey, WrapMode, float, bool, SpectrumRole, ColorMode>;
     static ImageKey key(const ImageSource& source);
 
-    std::recursive_mutex mutex_;
+    mutable std::recursive_mutex mutex_;
     std::map<ImageKey, std::shared_ptr<const Image>> images_;
     std::map<std::tuple<ImageKey, WrapMode>, std::shared_ptr<const Pyramid<float>>> numbers_;
     std::map<ColorKey, std::shared_ptr<const ColorTexels>> colors_;
+    // Everything made, forgotten or not, for as long as a texture holds it.
+    std::vector<std::weak_ptr<const Pyramid<float>>> made_numbers_;
+    std::vector<std::weak_ptr<const ColorTexels>> made_colors_;
     std::size_t decoded_ = 0;
 };
 

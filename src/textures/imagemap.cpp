@@ -29,6 +29,7 @@ struct ImageMapFields : TextureMapping {
     std::string encoding = "auto";
     float scale = 1;
     bool invert = false;
+    Vec2i size{0, 0}; ///< of the picture, once it has been read
 
     template <class T>
     static void describe_image(Fields<T>& f) {
@@ -74,8 +75,11 @@ struct ImageMapFields : TextureMapping {
         ImageSource source{context.resolve(filename), *parsed, wrap};
         ImageCache own;
         bool is_shared = context.texture_use && context.texture_use->images;
+        ImageCache& cache = is_shared ? *context.texture_use->images : own;
         try {
-            use(source, is_shared ? *context.texture_use->images : own);
+            auto picture = cache.image(source);
+            size = {picture->width(), picture->height()};
+            use(source, cache);
         } catch (const std::exception& e) {
             context.messages.add_error(place_of(node, "filename"),
                                        fmt::format("image \"{}\": {}", source.path.string(), e.what()));
@@ -100,6 +104,7 @@ struct ImageMap<FloatNode> final : FloatNode, ImageMapFields {
         float v = filter == TexelFilter::point ? texels->nearest(0, st) : texels->bilinear(0, st);
         return invert ? std::max(0.0f, 1 - scale * v) : scale * v;
     }
+    Vec2i image_size() const override { return size; }
 };
 
 template <>
@@ -110,15 +115,13 @@ struct ImageMap<SpectrumNode> final : SpectrumNode, ImageMapFields {
     void finish(const Node& node, BuildContext& context) {
         read(node, context, [&](const ImageSource& source, ImageCache& cache) {
             TextureUse use = context.texture_use ? *context.texture_use : TextureUse{};
-            if (use.is_check)
-                cache.image(source);
-            else
-                texels = cache.colors(source, {scale, invert}, use.role, context.color_mode);
+            if (!use.is_check) texels = cache.colors(source, {scale, invert}, use.role, context.color_mode);
         });
     }
     Spectrum eval(const TexturePoint& at, const Wavelengths& lambda) const override {
         return texels->lookup(image_point(at), filter, lambda);
     }
+    Vec2i image_size() const override { return size; }
 };
 
 } // namespace

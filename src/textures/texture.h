@@ -31,6 +31,8 @@ struct FloatNode {
     virtual float eval(const TexturePoint&) const = 0;
     /// Upper bound of |eval|; infinity when not known.
     virtual float max_value() const { return infinity; }
+    /// Width and height (pixels) of the image it shows; zero when it shows none.
+    virtual Vec2i image_size() const { return {0, 0}; }
 };
 
 /// A texture node of colours.
@@ -38,6 +40,8 @@ struct SpectrumNode {
     static constexpr std::string_view family_name = "spectrum texture";
     virtual ~SpectrumNode() = default;
     virtual Spectrum eval(const TexturePoint&, const Wavelengths&) const = 0;
+    /// Width and height (pixels) of the image it shows; zero when it shows none.
+    virtual Vec2i image_size() const { return {0, 0}; }
 };
 
 /// A number that may vary over a surface: a constant, or a node.

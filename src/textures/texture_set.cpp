@@ -14,6 +14,7 @@ struct TextureSet::State {
     struct SpectrumEntry {
         TextureNode description;
         bool is_valid = false; ///< the check found no errors
+        Vec2i image_size{0, 0};
         bool is_made[3] = {};
         std::shared_ptr<const SpectrumNode> by_role[3];
     };
@@ -71,10 +72,11 @@ void TextureSet::build(const std::vector<TextureNode>& nodes, BuildContext& cont
         }
         if (description.is_spectrum) {
             TextureUse check{SpectrumRole::unbounded, &state_->images, true};
-            bool is_valid = make_node(spectrum_texture_kinds(), description, check, context) != nullptr;
+            auto checked = make_node(spectrum_texture_kinds(), description, check, context);
             State::SpectrumEntry& entry = state_->spectra[name];
             entry.description = description;
-            entry.is_valid = is_valid;
+            entry.is_valid = checked != nullptr;
+            if (checked) entry.image_size = checked->image_size();
         } else {
             TextureUse use{SpectrumRole::unbounded, &state_->images, false};
             auto node = make_node(float_texture_kinds(), description, use, context);
@@ -122,6 +124,21 @@ bool TextureSet::has_float(const std::string& name) const {
 bool TextureSet::has_spectrum(const std::string& name) const {
     std::lock_guard lock(state_->mutex);
     return state_->spectra.count(name) != 0;
+}
+
+std::optional<Vec2i> TextureSet::image_size(const std::string& name) const {
+    std::lock_guard lock(state_->mutex);
+    Vec2i size{0, 0};
+    if (auto it = state_->spectra.find(name); it != state_->spectra.end()) size = it->second.image_size;
+    if (auto it = state_->floats.find(name); it != state_->floats.end() && it->second)
+        size = it->second->image_size();
+    if (size.x == 0) return std::nullopt;
+    return size;
+}
+
+std::size_t TextureSet::bytes() const {
+    std::lock_guard lock(state_->mutex);
+    return state_->images.bytes();
 }
 
 std::vector<std::string> TextureSet::float_names() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,11 @@ class TextureSet {
     /// Whether a node of that name was given, even one with errors.
     bool has_float(const std::string& name) const;
     bool has_spectrum(const std::string& name) const;
+    /// The size (pixels) of the image that the texture of that name shows (of the float texture, when there
+    /// are both); nullopt when it shows none.
+    std::optional<Vec2i> image_size(const std::string& name) const;
+    /// Memory of images and tables, each counted once however many textures share it.
+    std::size_t bytes() const;
     /// Sorted.
     std::vector<std::string> float_names() const;
     std::vector<std::string> spectrum_names() const;

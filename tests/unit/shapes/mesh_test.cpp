@@ -29,6 +29,14 @@ TEST(TriangleMesh, TakesThreeVerticesWithoutIndices) {
     EXPECT_EQ(make("sphere", {})->triangles(), nullptr);
 }
 
+TEST(Meshes, SayHowLargeTheirArraysAre) {
+    auto triangle = make("trianglemesh", {points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})});
+    EXPECT_EQ(triangle->bytes(), 3 * sizeof(Vec3) + 3 * sizeof(int));
+    auto patch = make("bilinearmesh", {points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})});
+    EXPECT_EQ(patch->bytes(), 4 * sizeof(Vec3) + 4 * sizeof(int));
+    EXPECT_EQ(make("sphere", {})->bytes(), 0u);
+}
+
 TEST(TriangleMesh, OrientationIsPbrts) {
     auto triangle = points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
     Ray ray{{0.25f, 0.25f, 3}, {0, 0, -1}};

@@ -180,6 +180,36 @@ TEST_F(TextureTest, FilesThatAreNoImagesAreErrors) {
     EXPECT_THAT(messages.list()[1].text, HasSubstr("needs the parameter \"string filename\""));
 }
 
+TEST_F(TextureTest, SaysHowLargeItsImagesAre) {
+    Image wide = Image::rgb_image(3, 2);
+    save("four.exr", wide);
+    TextureNode a = four(), b = four(), numbers = four({}, false);
+    a.node.name = "a";
+    b.node.name = "b";
+    numbers.node.name = "numbers";
+    build({a, b, numbers, texture_node("scale", {}, true, "plain")}, ColorMode::rgb);
+    ASSERT_EQ(messages.error_count(), 0u) << first_message();
+    for (const char* name : {"a", "b", "numbers"}) {
+        ASSERT_TRUE(textures.image_size(name)) << name;
+        EXPECT_EQ(*textures.image_size(name), (Vec2i{3, 2})) << name;
+    }
+    EXPECT_FALSE(textures.image_size("plain"));
+    EXPECT_FALSE(textures.image_size("absent"));
+}
+
+TEST_F(TextureTest, CountsSharedTexelsOnce) {
+    save("four.exr", four_colors());
+    TextureNode a = four(), b = four();
+    a.node.name = "a";
+    b.node.name = "b";
+    build({a, b}, ColorMode::rgb);
+    EXPECT_EQ(textures.bytes(), 4 * 3 * sizeof(float)) << "the image";
+    auto first = textures.find_spectrum("a", SpectrumRole::albedo);
+    auto second = textures.find_spectrum("b", SpectrumRole::albedo);
+    textures.forget_images();
+    EXPECT_EQ(textures.bytes(), 4 * sizeof(Vec3)) << "the texels";
+}
+
 } // namespace
 
 } // namespace alhazen
