@@ -37,9 +37,19 @@ int run_help(const HelpOptions& options) {
         fmt::print(
             "alhazen help TYPE lists what there is of a type; alhazen help TYPE NAME its parameters.\n\n");
         for (const FamilyInfo& family : families()) fmt::print("  {:<18}{}\n", family.name, family.about);
+        fmt::print("  {:<18}How colours are written, and the spectra that have names.\n", "spectrum");
         return exit_ok;
     }
-    std::vector<std::string> names;
+    if (options.family == "spectrum") {
+        fmt::print("{}", spectra_text(std::min(terminal_columns(), 100)));
+        return exit_ok;
+    }
+    if (options.family == "texture") {
+        // One word to the user, two families: numbers and colours.
+        for (const char* family : {"spectrum-texture", "float-texture"}) run_help({family, options.kind, ""});
+        return exit_ok;
+    }
+    std::vector<std::string> names{"texture", "spectrum"};
     for (const FamilyInfo& family : families()) {
         names.push_back(family.name);
         if (family.name != options.family) continue;

@@ -94,6 +94,7 @@ void add_convert_command(CLI::App& app, Action& action) {
     command->add_option("OUT", options->out, "image to write; the suffix says the format")->required();
     command
         ->add_option("--exposure", options->exposure, "make it brighter by this many stops (factors of two)")
+        ->check(CLI::Range(-100.0f, 100.0f))
         ->type_name("STOPS");
     command->add_option("--tonemap", options->tonemap, "curve from scene light to display light")
         ->check(CLI::IsMember(tone_curve_names()))

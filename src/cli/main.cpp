@@ -1,6 +1,7 @@
 /// The program: one binary with subcommands.
+#include <algorithm>
 #include <cstdio>
-#include <exception>
+#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -25,9 +26,21 @@ int main(int argc, char** argv) {
         fmt::print("{}", app.help());
         return exit_ok;
     }
+    std::string first = argv[1];
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+    if (!first.starts_with("-") && std::find(commands.begin(), commands.end(), first) == commands.end()) {
+        fmt::print(stderr, "alhazen: error: unknown command \"{}\"{}\n", first,
+                   did_you_mean(first, commands));
+        return exit_bad_input;
+    }
     try {
         app.parse(argc, argv);
-        return action();
+        int code = action();
+        // What could not be written (a full disk behind a pipe) must not pass for success.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw std::runtime_error("cannot write to standard output");
+        return code;
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? exit_ok : exit_bad_input;
     } catch (const SceneError& e) {

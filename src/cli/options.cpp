@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "image/image.h"
+
 namespace alhazen {
 
 namespace {
@@ -27,9 +29,14 @@ std::vector<int> split_integers(const std::string& text, char separator) {
 
 void read_size(const std::string& text, RenderSettings& settings) {
     auto n = split_integers(text, 'x');
-    if (n.size() != 2 || n[0] < 1 || n[1] < 1 || n[0] > 65536 || n[1] > 65536)
+    if (n.size() != 2 || n[0] < 1 || n[1] < 1 || n[0] > Image::max_side || n[1] > Image::max_side)
         throw CLI::ValidationError(
             "--size", fmt::format("\"{}\" is not a size; write it as 800x600 (1 to 65536)", text));
+    constexpr std::size_t most_pixels = Image::max_values / 3;
+    if (static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) > most_pixels)
+        throw CLI::ValidationError(
+            "--size",
+            fmt::format("{} x {} is too large; at most {} pixels are possible", n[0], n[1], most_pixels));
     settings.size = Vec2i{n[0], n[1]};
 }
 
@@ -58,7 +65,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--integrator", s.integrator, "use this integrator (alhazen help integrator)")
         ->type_name("NAME");
     command.add_option("--camera", s.camera, "use the camera of this name")->type_name("NAME");
-    command.add_option("--seed", s.seed, "seed of the random numbers")->type_name("N");
+    command.add_option("--seed", s.seed, "seed of the random numbers")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("N");
     command.add_option("--threads", s.threads, "how many threads (default: all)")
         ->check(CLI::Range(0, 4096))
         ->type_name("N");

@@ -29,8 +29,10 @@ void ProgressBar::update(const Progress& p) {
     }
     last_ = p.seconds;
     std::string rate = p.rays_per_second > 0 ? fmt::format(", {:.2f} Mrays/s", p.rays_per_second / 1e6) : "";
-    std::string tail = fmt::format(" {:3.0f} %  {}/{} spp{}, {} left", p.fraction * 100, p.samples_done,
-                                   p.samples_total, rate, duration_text(p.seconds_left));
+    // A guess from the first moments would be wild.
+    std::string left = p.seconds > 0.5 ? ", " + duration_text(p.seconds_left) + " left" : "";
+    std::string tail = fmt::format(" {:3.0f} %  {}/{} spp{}{}", p.fraction * 100, p.samples_done,
+                                   p.samples_total, rate, left);
     if (!is_terminal_) {
         fmt::print(stderr, "rendering:{}\n", tail);
         return;

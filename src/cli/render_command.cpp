@@ -50,10 +50,16 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-double peak_memory_bytes() {
+// "teapot" of "scenes/teapot.pbrt.gz".
+std::string scene_stem(const std::string& scene) {
+    std::string name = std::filesystem::path(scene).filename().string();
+    return name.substr(0, name.find('.', 1));
+}
+
+std::int64_t peak_memory_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) * 1024;
+    return std::int64_t{usage.ru_maxrss} * 1024;
 }
 
 // Says what is wrong with an output before an hour of rendering rather than after it.
@@ -177,7 +183,7 @@ int run_render(RenderOptions& options) {
         if (!options.quiet) fmt::print(stderr, "{}\n", m.full_text());
     if (options.outputs.empty()) {
         std::string own = world->film->filename();
-        options.outputs = {own.empty() ? std::filesystem::path(options.scene).stem().string() + ".exr" : own};
+        options.outputs = {own.empty() ? scene_stem(options.scene) + ".exr" : own};
         check_output(options.outputs.front());
     }
 
@@ -186,6 +192,9 @@ int run_render(RenderOptions& options) {
     write_outputs(*world, image, options.outputs);
     report_bad_samples(options, stats);
     if (!options.stats_file.empty()) write_stats(options, *world, stats, timing, messages);
+    if (stats.cancelled && !options.quiet)
+        fmt::print(stderr, "stopped after {} of {} samples per pixel; the picture so far is written\n",
+                   stats.samples, world->spp);
     if (!options.quiet)
         for (const std::string& file : options.outputs)
             fmt::print("{}: {} x {}, {} spp, {}, {:.2f} Mrays/s\n", file, image.width(), image.height(),

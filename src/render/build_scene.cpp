@@ -21,8 +21,9 @@ class SceneBuilder {
         for (std::size_t i = 0; i < description_.objects.size(); ++i)
             index_.emplace(description_.objects[i].name, i);
         objects_.resize(description_.objects.size());
-        for (std::size_t i = 0; i < objects_.size(); ++i) object(i, 1);
-        std::unique_ptr<Object> root = make_object(description_.world, 0);
+        is_open_.resize(objects_.size());
+        for (std::size_t i = 0; i < objects_.size(); ++i) object(i);
+        std::unique_ptr<Object> root = make_object(description_.world);
         if (context_.messages.error_count() > 0) return nullptr;
         objects_.push_back(std::move(root));
         return std::make_unique<Scene>(std::move(objects_), std::move(lights_));
@@ -47,21 +48,28 @@ class SceneBuilder {
     }
 
     // The finished object; nullptr with an error added when it cannot be had.
-    const Object* object(std::size_t i, std::size_t depth) {
+    const Object* object(std::size_t i) {
         if (objects_[i]) return objects_[i].get();
-        const ObjectNode& node = description_.objects[i];
-        if (depth >= Found::max_depth) {
-            context_.messages.add_error(node.place,
-                                        fmt::format("object \"{}\" is nested more than {} deep, or contains "
-                                                    "itself",
-                                                    node.name, Found::max_depth));
+        const Place& place = description_.objects[i].place;
+        if (is_open_[i]) {
+            context_.messages.add_error(
+                place, fmt::format("object \"{}\" contains itself", description_.objects[i].name));
             return nullptr;
         }
-        objects_[i] = make_object(description_.objects[i], depth);
+        is_open_[i] = true;
+        auto made = make_object(description_.objects[i]);
+        is_open_[i] = false;
+        if (made->height() > Found::max_depth) {
+            context_.messages.add_error(
+                place, fmt::format("object \"{}\" nests instances {} deep; at most {} are possible",
+                                   description_.objects[i].name, made->height(), Found::max_depth));
+            made = std::make_unique<Object>(std::vector<PlacedShape>{}, std::vector<PlacedObject>{});
+        }
+        objects_[i] = std::move(made);
         return objects_[i].get();
     }
 
-    std::unique_ptr<Object> make_object(ObjectNode& node, std::size_t depth) {
+    std::unique_ptr<Object> make_object(ObjectNode& node) {
         std::vector<PlacedObject> instances;
         for (const InstanceNode& instance : node.instances) {
             auto found = index_.find(instance.object);
@@ -74,7 +82,7 @@ class SceneBuilder {
                 continue;
             }
             PlacedObject placed;
-            placed.object = object(found->second, depth + 1);
+            placed.object = object(found->second);
             placed.world_from_object = placement(instance.world_from_instance, instance.place);
             placed.object_from_world = placed.world_from_object.inverse();
             placed.number = instance_count_++;
@@ -110,7 +118,8 @@ class SceneBuilder {
         if (shape.material_name.empty())
             return materials_.at(materials_.size() - 1); // the default, built last
         const Material* material = materials_.find(shape.material_name);
-        if (!material)
+        // One that was given but had errors has told them already.
+        if (!material && !materials_.has(shape.material_name))
             context_.messages.add_error(shape.node.place,
                                         fmt::format("unknown material \"{}\"{}", shape.material_name,
                                                     did_you_mean(shape.material_name, materials_.names())));
@@ -139,6 +148,7 @@ class SceneBuilder {
     BuildContext& context_;
     std::vector<std::unique_ptr<Light>> lights_;
     std::vector<std::unique_ptr<Object>> objects_;
+    std::vector<char> is_open_; ///< objects that are being made
     std::unordered_map<std::string, std::size_t> index_;
     std::uint32_t instance_count_ = 0;
 };

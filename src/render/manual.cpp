@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "color/spectral.h"
+
 namespace alhazen {
 
 namespace {
@@ -82,6 +84,20 @@ std::string kind_text(const FamilyInfo& family, const KindDoc& kind, int columns
     for (const Example& e : kind.examples)
         out += fmt::format("\nExample, {}:\n", e.name) + example_text(family, kind, e) + "\n";
     return out;
+}
+
+std::string spectra_text(int columns) {
+    std::string names;
+    for (const std::string& name : spectrum_names()) names += name + " ";
+    return "Colours in a scene:\n"
+           "  \"rgb NAME\" [ .6 .4 .3 ]              in the colour space in effect (sRGB unless ColorSpace "
+           "says)\n"
+           "  \"blackbody NAME\" 3000                light of a black body, kelvins\n"
+           "  \"spectrum NAME\" \"metal-Au-eta\"      a spectrum by name, or a file of nm-value pairs\n"
+           "  \"spectrum NAME\" [ 400 .1 700 .9 ]    samples: nm and value\n"
+           "  \"float NAME\" .5                      the same at all wavelengths\n\n"
+           "Spectra with names:\n" +
+           wrapped(names, columns, "  ");
 }
 
 std::string family_text(const FamilyInfo& family) {

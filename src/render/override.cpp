@@ -78,25 +78,32 @@ std::optional<std::vector<float>> read_numbers(std::string text) {
     return numbers;
 }
 
+std::optional<Parameter> make_integer_parameter(const FieldDoc& field, const std::string& value) {
+    int number = 0;
+    auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error != std::errc{} || end != value.data() + value.size()) return std::nullopt;
+    return make_integer(field.name, number);
+}
+
 // The value as one of the types the field takes: numbers where it takes numbers, else a string.
-std::optional<Parameter> make_parameter(const FieldDoc& field, const std::string& value) {
+std::optional<Parameter> make_parameter(const SceneDescription& scene, const FieldDoc& field,
+                                        const std::string& value) {
     auto takes = [&](std::string_view type) { return field.type.find(type) != std::string::npos; };
     if (takes("bool")) {
         if (value != "true" && value != "false") return std::nullopt;
         return make_bool(field.name, value == "true");
     }
     if (takes("string") || takes("\"")) return make_string(field.name, value);
+    if (field.type == "integer") return make_integer_parameter(field, value);
     auto numbers = read_numbers(value);
     if (!numbers || numbers->empty()) {
-        if (takes("texture")) return make_texture(field.name, value);
+        bool names_texture = std::any_of(scene.textures.begin(), scene.textures.end(),
+                                         [&](const TextureNode& t) { return t.node.name == value; });
+        if (takes("texture") && (names_texture || !takes("spectrum"))) return make_texture(field.name, value);
         if (takes("spectrum")) return make_spectrum(field.name, value);
         return std::nullopt;
     }
     const auto& v = *numbers;
-    if (takes("integer") && v.size() == 1) {
-        if (v[0] != std::floor(v[0]) || std::abs(v[0]) > 1e9f) return std::nullopt;
-        return make_integer(field.name, static_cast<int>(v[0]));
-    }
     if (takes("float") && v.size() == 1) return make_float(field.name, v[0]);
     if (takes("float[]")) return make_array(field.name, ValueType::real, v);
     if (takes("rgb") && v.size() == 3) return make_rgb(field.name, v[0], v[1], v[2]);
@@ -140,7 +147,8 @@ void apply_override(SceneDescription& scene, const std::string& text, Messages& 
     for (const FieldDoc& field : doc->fields) {
         known.push_back(field.name);
         if (field.name != name) continue;
-        if (auto parameter = make_parameter(field, value)) return target.node->set(std::move(*parameter));
+        if (auto parameter = make_parameter(scene, field, value))
+            return target.node->set(std::move(*parameter));
         return fail(fmt::format("\"{}\" is not a value of type {}", value, field.type));
     }
     fail(fmt::format("{} \"{}\" has no parameter \"{}\"{}", target.family, target.node->type, name,

@@ -33,14 +33,6 @@ Node replaced_kind(const KindList<Family>& kinds, Node node, const std::string& 
     return node;
 }
 
-std::unique_ptr<Integrator> make_integrator(const SceneDescription& description,
-                                            const RenderSettings& settings, BuildContext& context) {
-    Node node = with_default(description.integrator, "path");
-    if (!settings.integrator.empty())
-        node = replaced_kind(integrator_kinds(), std::move(node), settings.integrator, context.messages);
-    return integrator_kinds().make(node, context, "path");
-}
-
 std::unique_ptr<Film> make_film(const SceneDescription& description, const RenderSettings& settings,
                                 BuildContext& context) {
     auto film = film_kinds().make(with_default(description.film, "rgb"), context, "rgb");
@@ -119,6 +111,10 @@ void choose_color_mode(World& world, const RenderSettings& settings, Messages& m
 
 std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings,
                                    Messages& messages) {
+    description.integrator = with_default(std::move(description.integrator), "path");
+    if (!settings.integrator.empty())
+        description.integrator = replaced_kind(integrator_kinds(), std::move(description.integrator),
+                                               settings.integrator, messages);
     for (const std::string& text : settings.overrides) apply_override(description, text, messages);
     messages.throw_if_errors();
 
@@ -128,7 +124,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     context.base_folder = description.base_folder;
     context.mesh_reader = &mesh_reader;
 
-    world->integrator = make_integrator(description, settings, context);
+    world->integrator = integrator_kinds().make(description.integrator, context, "path");
     choose_color_mode(*world, settings, messages);
     context.color_mode = world->mode;
 
@@ -162,6 +158,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     for (const TextureNode& medium : description.media)
         messages.add_unsupported(medium.node.place, "participating media are not supported yet", "vacuum");
     world->scene = build_scene(description, world->materials, context);
+    world->textures.forget_images();
     messages.throw_if_errors();
     world->scene->set_light_chooser(world->integrator->light_sampler());
     return world;

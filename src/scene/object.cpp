@@ -44,21 +44,24 @@ void transform_hit(const Transform& t, Hit& hit) {
 Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instances)
     : shapes_(std::move(shapes)), instances_(std::move(instances)), bvh_(bounds_of(shapes_, instances_)) {
     primitives_.reserve(bvh_.primitive_count());
+    for (const PlacedObject& instance : instances_)
+        height_ = std::max(height_, instance.object->height() + 1);
     for (const PlacedShape& placed : shapes_) {
         const FloatTexture& alpha = placed.shape->alpha;
         leaves_.push_back({placed.shape.get(), placed.shape->triangles(),
                            alpha.is_constant() && alpha.constant() >= 1,
                            placed.material && placed.material->is_interface()});
     }
+    has_triangles_ = std::any_of(leaves_.begin(), leaves_.end(), [](const Leaf& l) { return l.mesh; });
     for (std::uint32_t s = 0; s < shapes_.size(); ++s)
         for (std::uint32_t i = 0; i < shapes_[s].shape->primitive_count(); ++i) primitives_.push_back({s, i});
     for (std::uint32_t i = 0; i < instances_.size(); ++i) primitives_.push_back({instance_mark, i});
 }
 
-bool Object::meets(const Ray& ray, const RayShear& shear, const Primitive& primitive,
+bool Object::meets(const Ray& ray, const PreparedRay& prepared, const Primitive& primitive,
                    Intersection& hit) const {
     const Leaf& leaf = leaves_[primitive.shape];
-    bool met = leaf.mesh ? leaf.mesh->intersect_with(ray, shear, primitive.primitive, hit)
+    bool met = leaf.mesh ? leaf.mesh->intersect_with(ray, *prepared.shear, primitive.primitive, hit)
                          : leaf.shape->intersect(ray, primitive.primitive, hit);
     return met && (leaf.is_solid || alpha_passes(ray, primitive, hit));
 }
@@ -77,50 +80,38 @@ bool Object::alpha_passes(const Ray& ray, const Primitive& primitive, const Inte
 }
 
 void Object::closest(const Ray& ray, Found& found) const {
-    std::array<const PlacedObject*, Found::max_depth> chain{};
-    closest_nested(ray, found, 0, chain);
+    closest_nested(ray, found, 0);
 }
 
-void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth,
-                            std::array<const PlacedObject*, Found::max_depth>& chain) const {
-    const RayShear shear(ray);
+void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth) const {
+    const PreparedRay prepared(ray, has_triangles_);
     Intersection nearest;
-    float best_t = infinity;
-    std::uint32_t best = no_primitive;
-    // Of hits at the same distance the first primitive counts, as in the walk, so that found follows the
-    // walk.
-    auto accept = [&](float t, std::uint32_t index) {
-        if (!(t < best_t || (t == best_t && index < best))) return false;
-        best_t = t;
-        best = index;
-        return true;
-    };
     bvh_.closest(ray, nearest, [&](std::uint32_t index, const Ray& r, Intersection& hit) {
         const Primitive& primitive = primitives_[index];
-        if (primitive.shape != instance_mark) {
-            if (!meets(r, shear, primitive, hit) || !accept(hit.t, index)) return false;
-            found.hit = hit;
-            found.object = this;
-            found.depth = depth;
-            found.instances = chain;
-            found.ray = ray;
-            return true;
-        }
+        if (primitive.shape != instance_mark) return meets(r, prepared, primitive, hit);
         const PlacedObject& instance = instances_[primitive.primitive];
         float shift = 0;
         Ray local = ray_into(instance, r, shift);
         Found inner;
-        chain[depth] = &instance;
-        instance.object->closest_nested(local, inner, depth + 1, chain);
+        inner.instances = found.instances;
+        inner.instances[depth] = &instance;
+        instance.object->closest_nested(local, inner, depth + 1);
         hit.t = inner.hit.t + shift;
-        if (!inner.object || !accept(hit.t, index)) return false;
+        // Of hits at the same distance the first primitive counts, as in the walk, so that found follows it.
+        if (!inner.object || hit.t > nearest.t || (hit.t == nearest.t && index > nearest.primitive))
+            return false;
         found = inner;
         return true;
     });
+    if (!nearest.found() || primitives_[nearest.primitive].shape == instance_mark) return;
+    found.hit = nearest;
+    found.object = this;
+    found.depth = depth;
+    found.ray = ray;
 }
 
 bool Object::any(const Ray& ray) const {
-    const RayShear shear(ray);
+    const PreparedRay prepared(ray, has_triangles_);
     return bvh_.any(ray, [&](std::uint32_t index, const Ray& r, Intersection& hit) {
         const Primitive& primitive = primitives_[index];
         if (primitive.shape == instance_mark) {
@@ -129,7 +120,7 @@ bool Object::any(const Ray& ray) const {
             hit.t = 0;
             return instance.object->any(ray_into(instance, r, shift));
         }
-        return !leaves_[primitive.shape].is_interface && meets(r, shear, primitive, hit);
+        return !leaves_[primitive.shape].is_interface && meets(r, prepared, primitive, hit);
     });
 }
 

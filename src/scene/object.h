@@ -30,7 +30,8 @@ struct PlacedObject {
 
 /// A hit, and through which instances the ray got there.
 struct Found {
-    static constexpr std::size_t max_depth = 8; ///< how deep instances may be nested
+    static constexpr std::size_t max_depth =
+        8; ///< how deep objects may be nested, the scene itself not counted
 
     Intersection hit;
     const Object* object = nullptr; ///< whose primitive was met
@@ -56,6 +57,8 @@ class Object {
     const std::vector<PlacedObject>& instances() const { return instances_; }
     const Bvh& bvh() const { return bvh_; }
     std::size_t primitive_count() const { return primitives_.size(); }
+    /// How deep instances are nested to get out of the innermost: 1 without instances.
+    std::size_t height() const { return height_; }
 
   private:
     /// A primitive of a shape, or an instance (shape = instance_mark, primitive = its index).
@@ -70,16 +73,28 @@ class Object {
         bool is_solid, is_interface;
     };
 
-    void closest_nested(const Ray& ray, Found& found, std::size_t depth,
-                        std::array<const PlacedObject*, Found::max_depth>& chain) const;
-    bool meets(const Ray& ray, const RayShear& shear, const Primitive& primitive, Intersection& hit) const;
+    /// What is computed once a ray for the tests of its leaves.
+    struct PreparedRay {
+        std::optional<RayShear> shear; ///< where there are triangles
+
+        PreparedRay(const Ray& ray, bool has_triangles) {
+            if (has_triangles) shear.emplace(ray);
+        }
+    };
+
+    /// found.instances holds the first depth ones already.
+    void closest_nested(const Ray& ray, Found& found, std::size_t depth) const;
+    bool meets(const Ray& ray, const PreparedRay& prepared, const Primitive& primitive,
+               Intersection& hit) const;
     bool alpha_passes(const Ray& ray, const Primitive& primitive, const Intersection& hit) const;
 
     std::vector<PlacedShape> shapes_;
     std::vector<PlacedObject> instances_;
     std::vector<Leaf> leaves_; ///< one a shape
     std::vector<Primitive> primitives_;
+    bool has_triangles_ = false;
     Bvh bvh_;
+    std::size_t height_ = 1;
 };
 
 } // namespace alhazen

@@ -90,6 +90,9 @@ TEST_F(Commands, HelpExplainsEverythingRegistered) {
     EXPECT_EQ(phong.exit_code, 0);
     for (const char* word : {"shininess", "reflectivity", "transparency", "default 50", "eta"})
         EXPECT_THAT(phong.out, HasSubstr(word));
+    EXPECT_THAT(alhazen("help spectrum").out, HasSubstr("metal-Cu-eta"));
+    EXPECT_THAT(alhazen("help texture imagemap").out, HasSubstr("filename"));
+    EXPECT_EQ(alhazen("convert a.pfm b.exr --exposure nan").exit_code, 2);
     EXPECT_THAT(alhazen("help matrial").err, HasSubstr("did you mean \"material\"?"));
     EXPECT_THAT(alhazen("help material phnog").err, HasSubstr("did you mean \"phong\"?"));
     EXPECT_EQ(alhazen("help material phnog").exit_code, 2);

@@ -85,6 +85,42 @@ TEST_F(Render, CameraIntegratorColorAndSet) {
     EXPECT_GT(picture("front.pfm").rgb(16, 12).x, 0);
 }
 
+TEST_F(Render, SetReachesTheIntegratorThatIsAskedForAndSpectraByName) {
+    EXPECT_EQ(
+        alhazen("render scene.pbrt -o a.png --integrator ambientocclusion --set integrator.maxdistance=2")
+            .exit_code,
+        0);
+    expect_error("render scene.pbrt -o a.png --integrator whitted --set integrator.regularize=true",
+                 "integrator \"whitted\" has no parameter \"regularize\"");
+    EXPECT_EQ(alhazen("render scene.pbrt -o a.png --set material.Clay.reflectance=metal-Cu-k").exit_code, 2);
+    EXPECT_EQ(alhazen("render scene.pbrt -o a.pfm --set sampler.seed=16777216").exit_code, 0);
+    EXPECT_EQ(alhazen("render scene.pbrt -o b.pfm --set sampler.seed=16777217").exit_code, 0);
+    EXPECT_NE(file_text(path("a.pfm")), file_text(path("b.pfm")));
+}
+
+TEST_F(Render, NestedInstancesUpToTheLimit) {
+    auto nested = [](int levels) {
+        std::string text = "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
+                           "Translate 0 0 5\nCamera \"perspective\"\nWorldBegin\n"
+                           "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n"
+                           "ObjectBegin \"o1\"\nShape \"sphere\"\nObjectEnd\n";
+        for (int i = 2; i <= levels; ++i)
+            text += fmt::format("ObjectBegin \"o{}\"\nObjectInstance \"o{}\"\nObjectEnd\n", i, i - 1);
+        return text + fmt::format("ObjectInstance \"o{}\"\n", levels);
+    };
+    write("nest.pbrt", nested(8));
+    EXPECT_EQ(alhazen("render nest.pbrt -o a.pfm --spp 4").exit_code, 0);
+    write("flat.pbrt", nested(1));
+    EXPECT_EQ(alhazen("render flat.pbrt -o b.pfm --spp 4").exit_code, 0);
+    EXPECT_EQ(file_text(path("a.pfm")), file_text(path("b.pfm")));
+    write("nest.pbrt", nested(9));
+    expect_error("render nest.pbrt -o a.pfm", "object \"o9\" nests instances 9 deep; at most 8 are possible");
+}
+
+TEST_F(Render, AFullDiskIsNoSuccess) {
+    EXPECT_EQ(shell(ALHAZEN_PROGRAM " info scene.pbrt > /dev/full").exit_code, 2);
+}
+
 TEST_F(Render, StatsAreJson) {
     ASSERT_EQ(alhazen("render scene.pbrt -o a.png --stats s.json --threads 1").exit_code, 0);
     auto stats = nlohmann::json::parse(file_text(path("s.json")));
@@ -148,7 +184,9 @@ TEST_F(Render, ArgumentsThatAreWrong) {
                  "\"deep\" is not a value of type integer");
     expect_error("render scene.pbrt --set material.Wax.reflectance=1", "the scene has no \"material.Wax\"");
     expect_error("render scene.pbrt --frobnicate", "--frobnicate");
-    expect_error("rendr scene.pbrt", "subcommand");
+    expect_error("rendr scene.pbrt", "unknown command \"rendr\" (did you mean \"render\"?)");
+    expect_error("render scene.pbrt --seed -1", "--seed");
+    expect_error("render scene.pbrt --size 60000x60000", "is too large; at most");
 }
 
 TEST_F(Render, ValuesOutOfRangeNameTheirPlace) {
