@@ -68,9 +68,15 @@ void add_world(Json& json, const World& world) {
     json["instances"] = counts.instances;
     json["light_count"] = world.scene->lights().size();
     json["accelerator_bytes"] = counts.accel_bytes;
-    json["texture_bytes"] = 0;
-    json["shape_bytes"] = 0;
-    json["memory_bytes"] = counts.accel_bytes;
+    for (Json& texture : json["textures"]) {
+        auto size = world.textures.image_size(texture["name"].get<std::string>());
+        if (!size) continue;
+        texture["width"] = size->x;
+        texture["height"] = size->y;
+    }
+    json["texture_bytes"] = world.textures.bytes();
+    json["shape_bytes"] = counts.shape_bytes;
+    json["memory_bytes"] = counts.accel_bytes + counts.shape_bytes + world.textures.bytes();
     const Bounds3& b = world.scene->bounds();
     if (!b.empty()) json["bounds"] = {{"min", vector_json(b.lo)}, {"max", vector_json(b.hi)}};
     json["film"] = {{"width", world.film->resolution().x}, {"height", world.film->resolution().y}};

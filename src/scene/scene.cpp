@@ -36,6 +36,7 @@ SceneCounts Scene::counts() const {
         counts.instances += object->instances().size();
         counts.accel_bytes += object->bvh().bytes();
         for (const PlacedShape& placed : object->shapes()) {
+            counts.shape_bytes += placed.shape->bytes();
             counts.primitives += placed.shape->primitive_count();
             if (placed.shape->triangles()) counts.triangles += placed.shape->primitive_count();
         }

@@ -16,7 +16,7 @@ namespace alhazen {
 /// What is in a scene, counted.
 struct SceneCounts {
     std::size_t shapes = 0, primitives = 0, triangles = 0, instances = 0, objects = 0;
-    std::size_t accel_bytes = 0;
+    std::size_t accel_bytes = 0, shape_bytes = 0;
 };
 
 class Scene {
