@@ -31,8 +31,14 @@ struct CountedSampler : Sampler {
 
   protected:
     template <class T>
-    static void describe_count(Fields<T>& f) {
-        f.field("pixelsamples", &T::pixelsamples, "samples taken in each pixel").in(1, max_pixel_samples);
+    static void describe_count(Fields<T>& f, std::string meaning = "samples taken in each pixel") {
+        f.field("pixelsamples", &T::pixelsamples, std::move(meaning)).in(1, max_pixel_samples);
+    }
+    /// Of the kinds whose points come in powers of two. No warning says so when a scene is read, since the
+    /// number may yet be replaced.
+    template <class T>
+    static void describe_binary_count(Fields<T>& f) {
+        describe_count(f, "samples taken in each pixel; a power of two spreads them best");
     }
     template <class T>
     static void describe_seed(Fields<T>& f) {
@@ -41,14 +47,6 @@ struct CountedSampler : Sampler {
     /// The scene's seed and the command line's as one.
     std::uint64_t full_seed(std::uint64_t seed_of_render) const {
         return hash_of(static_cast<std::uint64_t>(static_cast<std::uint32_t>(seed)), seed_of_render);
-    }
-    void warn_unless_power_of_two(const Node& node, BuildContext& context) const {
-        if (std::has_single_bit(static_cast<unsigned>(pixelsamples))) return;
-        const Parameter* p = node.find("pixelsamples");
-        context.messages.add_warning(p ? p->place : node.place,
-                                     "the " + node.type +
-                                         " sampler's points are spread best when pixelsamples is a power of "
-                                         "two");
     }
 };
 

@@ -16,14 +16,13 @@ class PaddedSobolSampler final : public CountedSampler {
         f.about("Every number and pair of numbers is spread evenly over the pixel's samples; pixels and "
                 "dimensions "
                 "are independent of each other.");
-        describe_count(f);
+        describe_binary_count(f);
         f.field("randomization", &PaddedSobolSampler::randomization, "how the points are made random");
         describe_seed(f);
         f.example("none", {make_string("randomization", "none")});
         f.example("permutedigits", {make_string("randomization", "permutedigits")});
         f.example("owen", {make_string("randomization", "owen")});
     }
-    void finish(const Node& node, BuildContext& context) { warn_unless_power_of_two(node, context); }
 
     SampleState start(Vec2i pixel, std::uint32_t sample) const override {
         return {pixel, sample, 0, mix_bits(seed_ ^ pixel_key(pixel))};

@@ -77,14 +77,13 @@ class SobolSampler final : public CountedSampler {
         f.about(
             "One sequence for the whole image, all dimensions of a path spread together. Dimensions beyond "
             "the 1024th are independent random numbers.");
-        describe_count(f);
+        describe_binary_count(f);
         f.field("randomization", &SobolSampler::randomization, "how the points are made random");
         describe_seed(f);
         f.example("none", {make_string("randomization", "none")});
         f.example("permutedigits", {make_string("randomization", "permutedigits")});
         f.example("owen", {make_string("randomization", "owen")});
     }
-    void finish(const Node& node, BuildContext& context) { warn_unless_power_of_two(node, context); }
 
     SampleState start(Vec2i pixel, std::uint32_t sample) const override {
         return {pixel, sample, 2, pixels_.index(pixel, sample)};

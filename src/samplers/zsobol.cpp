@@ -43,14 +43,13 @@ class ZSobolSampler final : public CountedSampler {
         f.about("The default: evenly spread within each pixel and over neighbouring pixels together, so that "
                 "what "
                 "noise is left looks fine-grained.");
-        describe_count(f);
+        describe_binary_count(f);
         f.field("randomization", &ZSobolSampler::randomization, "how the points are made random");
         describe_seed(f);
         f.example("none", {make_string("randomization", "none")});
         f.example("permutedigits", {make_string("randomization", "permutedigits")});
         f.example("owen", {make_string("randomization", "owen")});
     }
-    void finish(const Node& node, BuildContext& context) { warn_unless_power_of_two(node, context); }
 
     SampleState start(Vec2i pixel, std::uint32_t sample) const override {
         std::uint32_t within = sample & ((1u << log2_samples_) - 1);
