@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "color/tone.h"
 #include "image/image.h"
 
 namespace alhazen {
@@ -17,7 +18,7 @@ void check_same_size(const Image& a, const Image& b);
 /// sRGB-encoded, clamped to 0 ... 1; 0 for what is not finite.
 inline float display_value(float linear) {
     if (!std::isfinite(linear)) return 0;
-    return srgb_encoded(std::clamp(linear, 0.0f, 1.0f));
+    return srgb_encode(std::clamp(linear, 0.0f, 1.0f));
 }
 
 /// One number a pixel.

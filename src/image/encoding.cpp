@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "color/tone.h"
+
 namespace alhazen {
 
 std::optional<Encoding> Encoding::parse(std::string_view text) {
@@ -26,18 +28,10 @@ std::optional<Encoding> Encoding::parse(std::string_view text) {
     return power(exponent);
 }
 
-float srgb_decoded(float value) {
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
-
-float srgb_encoded(float light) {
-    return light <= 0.0031308f ? light * 12.92f : 1.055f * std::pow(light, 1 / 2.4f) - 0.055f;
-}
-
 float Encoding::decode(float value) const {
     switch (kind) {
     case Kind::srgb:
-        return srgb_decoded(value);
+        return srgb_decode(value);
     case Kind::gamma:
         return std::pow(std::max(value, 0.0f), gamma);
     case Kind::linear:
@@ -50,7 +44,7 @@ float Encoding::decode(float value) const {
 float Encoding::encode(float light) const {
     switch (kind) {
     case Kind::srgb:
-        return srgb_encoded(std::max(light, 0.0f));
+        return srgb_encode(std::max(light, 0.0f));
     case Kind::gamma:
         return std::pow(std::max(light, 0.0f), 1 / gamma);
     case Kind::linear:

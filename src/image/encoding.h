@@ -30,10 +30,4 @@ struct Encoding {
     bool operator==(const Encoding&) const = default;
 };
 
-/// The sRGB transfer curve (IEC 61966-2-1): file value to linear light. Below 0 and above 1 the curve goes
-/// on.
-float srgb_decoded(float value);
-/// Linear light to file value; the inverse of srgb_decoded.
-float srgb_encoded(float light);
-
 } // namespace alhazen

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "color/tone.h"
 #include "image/metrics.h"
 
 namespace alhazen {
@@ -28,7 +29,7 @@ Image heat_map(const Image& error, float scale) {
             float e = error.at(x, y) * scale;
             // NaN is the largest error there is.
             Vec3 c = magma_srgb(std::isnan(e) ? 1.0f : e);
-            out.set_rgb(x, y, {srgb_decoded(c.x), srgb_decoded(c.y), srgb_decoded(c.z)});
+            out.set_rgb(x, y, {srgb_decode(c.x), srgb_decode(c.y), srgb_decode(c.z)});
         }
     return out;
 }

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "image/statistics.h"
+#include "color/tone.h"
 
 namespace alhazen {
 
@@ -55,7 +55,7 @@ std::optional<int> Image::channel_index(std::string_view name) const {
 void Image::set_rgb(int x, int y, Vec3 color) {
     auto p = pixel(x, y);
     if (!has_rgb()) {
-        p[0] = rec709_luminance(color);
+        p[0] = luminance(color);
         return;
     }
     for (int i = 0; i < 3; ++i) p[rgb_[i]] = color[i];

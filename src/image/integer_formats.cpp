@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "color/tone.h"
 #include "image/formats.h"
 #include "image/stb.h"
 
@@ -63,7 +64,7 @@ Image to_linear(const T* pixels, const StbInfo& info, Encoding encoding) {
 std::uint8_t to_byte(float value, Transfer transfer) {
     if (!std::isfinite(value)) return 0;
     float v = std::clamp(value, 0.0f, 1.0f);
-    if (transfer == Transfer::srgb) v = srgb_encoded(v);
+    if (transfer == Transfer::srgb) v = srgb_encode(v);
     return static_cast<std::uint8_t>(std::lround(v * 255));
 }
 

@@ -1,5 +1,5 @@
 /// A glowing surface that looks equally bright from every direction (Pharr et al. 2023, section 12.4).
-#include "image/statistics.h"
+#include "color/tone.h"
 #include "lights/area_light.h"
 #include "lights/emission_image.h"
 #include "lights/light_parts.h"
@@ -128,7 +128,7 @@ struct DiffuseAreaLight final : AreaLight {
             for (int x = 0; x < image.width(); ++x) sum += Vec3d(emitted_rgb(image, x, y));
         Vec3 mean(sum / (static_cast<double>(image.width()) * image.height()));
         mean_color_ = SpectrumValue::illuminant_rgb(srgb_space(), mean);
-        image_luminance_ = rec709_luminance(mean);
+        image_luminance_ = luminance(mean);
     }
 
     // Of the description.

@@ -1,6 +1,6 @@
 #include "lights/environment_map.h"
 
-#include "image/statistics.h"
+#include "color/tone.h"
 #include "math/equal_area.h"
 
 namespace alhazen {
@@ -37,7 +37,7 @@ void EnvironmentMap::integrate(const Image& image) {
             Vec2 middle{(static_cast<float>(x) + 0.5f) / static_cast<float>(size.x),
                         (static_cast<float>(y) + 0.5f) / static_cast<float>(size.y)};
             auto cosine = static_cast<double>(std::max(0.0f, direction(middle).z));
-            illuminance += static_cast<double>(rec709_luminance(rgb)) * omega * cosine;
+            illuminance += static_cast<double>(luminance(rgb)) * omega * cosine;
         }
     }
     mean_rgb_ = Vec3(mean);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file.h"
+#include "color/tone.h"
 #include "tests/unit/image/test_images.h"
 
 namespace alhazen {
@@ -123,7 +124,7 @@ TEST(IntegerFiles, AutomaticIsSrgbAndGammaIsTaken) {
     Image half = Image::grey_image(1, 1);
     half.at(0, 0) = 128.0f / 255;
     std::string png = encode_image(".png", half, {.transfer = Transfer::linear, .metadata = {}});
-    EXPECT_EQ(decode_image(png, "").at(0, 0), srgb_decoded(128.0f / 255));
+    EXPECT_EQ(decode_image(png, "").at(0, 0), srgb_decode(128.0f / 255));
     EXPECT_EQ(decode_image(png, "", {Encoding::power(2)}).at(0, 0), std::pow(128.0f / 255, 2.0f));
     EXPECT_EQ(decode_image(png, "", {Encoding::linear()}).at(0, 0), 128.0f / 255);
 }
@@ -150,7 +151,7 @@ TEST(IntegerFiles, SixteenBitPng) {
     EXPECT_EQ(image.info.bits, 16);
     EXPECT_EQ(image.at(0, 0), 0x1234 / 65535.0f);
     EXPECT_EQ(image.at(1, 0), 1.0f);
-    EXPECT_EQ(decode_image(png, ".png").at(0, 0), srgb_decoded(0x1234 / 65535.0f));
+    EXPECT_EQ(decode_image(png, ".png").at(0, 0), srgb_decode(0x1234 / 65535.0f));
 }
 
 TEST(Png, KeepsText) {

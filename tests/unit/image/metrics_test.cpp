@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "color/tone.h"
 #include "tests/unit/image/test_images.h"
 
 namespace alhazen {
@@ -12,7 +13,7 @@ namespace {
 
 /// The images' values are what a display gets: the metrics undo this.
 Image decoded(Image image) {
-    for (float& v : image.values()) v = srgb_decoded(v);
+    for (float& v : image.values()) v = srgb_decode(v);
     return image;
 }
 
@@ -148,8 +149,8 @@ TEST(HeatMap, MagmaFromDarkToBright) {
     Image error = Image::grey_image(2, 1);
     error.at(1, 0) = 0.5f;
     Image map = heat_map(error, 2);
-    EXPECT_NEAR(srgb_encoded(map.rgb(1, 0).x), magma_srgb(1).x, 1e-5);
-    EXPECT_NEAR(srgb_encoded(map.rgb(0, 0).z), magma_srgb(0).z, 1e-5);
+    EXPECT_NEAR(srgb_encode(map.rgb(1, 0).x), magma_srgb(1).x, 1e-5);
+    EXPECT_NEAR(srgb_encode(map.rgb(0, 0).z), magma_srgb(0).z, 1e-5);
 }
 
 } // namespace
