@@ -94,13 +94,40 @@ Image read_image(const std::filesystem::path& path, const ReadOptions& options) 
     return decode_image(read_file(path), path.extension().string(), options);
 }
 
+const RgbColorSpace* color_space_of(const Image& image, const WriteOptions& options) {
+    for (const auto* metadata : {&options.metadata, &image.info.metadata})
+        if (auto found = metadata->find("color_space"); found != metadata->end())
+            return find_color_space(found->second);
+    return nullptr;
+}
+
+namespace {
+
+/// To sRGB, and without the word that it was anything else.
+std::string encode_converted(std::string_view suffix, Image image, const RgbColorSpace& from,
+                             WriteOptions options) {
+    if (image.has_rgb()) {
+        const Matrix3 srgb_from_rgb = convert_rgb(from, srgb_space());
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x) image.set_rgb(x, y, srgb_from_rgb * image.rgb(x, y));
+    }
+    image.info.metadata.erase("color_space");
+    options.metadata.erase("color_space");
+    return encode_image(suffix, image, options);
+}
+
+} // namespace
+
 std::string encode_image(std::string_view suffix, const Image& image, const WriteOptions& options) {
     auto format = format_by_suffix(suffix);
     if (!format) throw_unsupported(suffix);
     if (image.empty()) throw std::runtime_error("cannot write an image without pixels");
+    if (*format == Format::exr) return encode_exr(image, options);
+    if (auto space = color_space_of(image, options); space && space != &srgb_space())
+        return encode_converted(suffix, image, *space, options);
     switch (*format) {
     case Format::exr:
-        return encode_exr(image, options);
+        break;
     case Format::hdr:
         return encode_hdr(image);
     case Format::pfm:

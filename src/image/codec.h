@@ -29,7 +29,9 @@ struct WriteOptions {
     /// 1 ... 100.
     int jpeg_quality = 95;
     /// Kept by EXR (string attributes) and PNG (text); the others have no place for it. Added to, and
-    /// stronger than, the image's own info.metadata.
+    /// stronger than, the image's own info.metadata. "color_space" names the space that the values are in
+    /// (color/color_space.h), sRGB where there is none: EXR also gets chromaticities by it; the other formats
+    /// have no place for it, and their values are converted to sRGB.
     std::map<std::string, std::string> metadata;
 };
 

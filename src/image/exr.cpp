@@ -10,6 +10,7 @@
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 #include <half.h>
@@ -127,6 +128,15 @@ void insert_metadata(Imf::Header& header, const Image& image, const WriteOptions
     }
 }
 
+/// The primaries and white of the picture's colour space, where it is another than the one that files without
+/// this attribute have (OpenEXR's documentation, "Standard Attributes").
+void insert_chromaticities(Imf::Header& header, const Image& image, const WriteOptions& options) {
+    const RgbColorSpace* space = color_space_of(image, options);
+    if (!space || space == &srgb_space()) return;
+    auto xy = [](Vec2d p) { return Imath::V2f(static_cast<float>(p.x), static_cast<float>(p.y)); };
+    Imf::addChromaticities(header, {xy(space->red), xy(space->green), xy(space->blue), xy(space->white)});
+}
+
 /// Finite values stay finite: half floats end at 65504.
 std::vector<half> to_half(std::span<const float> values) {
     std::vector<half> out(values.size());
@@ -142,6 +152,7 @@ std::string write_pixels(const Image& image, const WriteOptions& options) {
     Imf::Header header(Imath::Box2i({display.lo.x, display.lo.y}, {display.hi.x - 1, display.hi.y - 1}),
                        window);
     header.compression() = Imf::ZIP_COMPRESSION;
+    insert_chromaticities(header, image, options);
     insert_metadata(header, image, options);
     bool halves = options.depth == FloatDepth::half;
     std::vector<half> converted = halves ? to_half(image.values()) : std::vector<half>{};

@@ -7,9 +7,13 @@
 #include <string>
 #include <string_view>
 
+#include "color/color_space.h"
 #include "image/codec.h"
 
 namespace alhazen {
+
+/// The space that metadata "color_space" names; nullptr for none, or one that is not known.
+const RgbColorSpace* color_space_of(const Image& image, const WriteOptions& options);
 
 Image decode_exr(std::string_view bytes);
 std::string encode_exr(const Image& image, const WriteOptions& options);

@@ -212,6 +212,49 @@ TEST(Exr, WindowsAndMetadata) {
                  "cannot write EXR: EXR attribute \"dataWindow\" is reserved");
 }
 
+/// One pixel that is yellow-green in a space.
+Image in_space(const char* name) {
+    Image image = Image::rgb_image(1, 1);
+    image.set_rgb(0, 0, {0.5f, 0.6f, 0.1f});
+    image.info.metadata["color_space"] = name;
+    return image;
+}
+
+TEST(Exr, ChromaticitiesOfTheColorSpace) {
+    using namespace std::string_literals;
+    const std::string mark = "chromaticities\0chromaticities\0\x20\0\0\0"s;
+    std::string file = encode_image(".exr", in_space("rec2020"));
+    std::size_t at = file.find(mark);
+    ASSERT_NE(at, std::string::npos);
+    // ITU-R BT.2020-2, table 3: red, green, blue, white.
+    std::size_t i = at + mark.size();
+    for (float expected : {0.708f, 0.292f, 0.170f, 0.797f, 0.131f, 0.046f, 0.3127f, 0.3290f}) {
+        std::uint32_t bits = 0;
+        for (int k = 3; k >= 0; --k)
+            bits = bits << 8 | static_cast<unsigned char>(file[i + static_cast<std::size_t>(k)]);
+        EXPECT_NEAR(std::bit_cast<float>(bits), expected, 1e-4f);
+        i += 4;
+    }
+    EXPECT_EQ(decode_image(file, ".exr").info.metadata.at("color_space"), "rec2020");
+    for (const char* name : {"srgb", "my own"})
+        EXPECT_EQ(encode_image(".exr", in_space(name)).find(mark), std::string::npos);
+}
+
+TEST(Codec, FormatsWithoutColorSpaceHoldSrgb) {
+    // 0.5, 0.6, 0.1 of Rec. 2020 in sRGB (ITU-R BT.2407, equation 1: the inverse of BT.2087's matrix).
+    const Vec3 expected{0.470f, 0.617f, 0.043f};
+    for (const char* suffix : {".png", ".pfm", ".bmp"}) {
+        SCOPED_TRACE(suffix);
+        Image read = round_trip(suffix, in_space("rec2020"));
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(read.rgb(0, 0)[c], expected[c], 5e-3f);
+        EXPECT_EQ(read.info.metadata.count("color_space"), 0u);
+        EXPECT_NEAR(round_trip(suffix, in_space("srgb")).rgb(0, 0).x, 0.5f, 5e-3f);
+    }
+    WriteOptions options;
+    options.metadata["color_space"] = "rec2020";
+    EXPECT_NEAR(round_trip(".pfm", in_space("srgb"), options).rgb(0, 0).x, expected.x, 5e-3f);
+}
+
 TEST(Pfm, FloatsAreKeptBitByBit) {
     Image image = noise(5, 4);
     image.at(0, 0) = std::numeric_limits<float>::quiet_NaN();
