@@ -7,8 +7,10 @@ namespace alhazen {
 
 namespace {
 
-Spectrum rgb_lanes(Vec3 srgb) {
-    srgb = max(srgb, Vec3(0));
+/// Surfaces and indices are brought into the gamut; light need not be, as lanes of light are only ever added
+/// up and multiplied by what is positive.
+Spectrum rgb_lanes(Vec3 srgb, SpectrumRole role) {
+    if (role != SpectrumRole::illuminant) srgb = max(srgb, Vec3(0));
     return {srgb.x, srgb.y, srgb.z, (srgb.x + srgb.y + srgb.z) / 3};
 }
 
@@ -53,7 +55,7 @@ SpectrumValue SpectrumValue::constant(float value, SpectrumRole role) {
     v.rgb_lanes_ = value;
     if (role == SpectrumRole::illuminant) {
         static const Vec3 equal_energy = color_of_light(SpectralCurve::constant(1));
-        v.rgb_lanes_ = rgb_lanes(equal_energy * value);
+        v.rgb_lanes_ = rgb_lanes(equal_energy * value, role);
     }
     return v;
 }
@@ -66,7 +68,7 @@ SpectrumValue SpectrumValue::albedo_rgb(const RgbColorSpace& space, Vec3 rgb) {
     v.role_ = SpectrumRole::albedo;
     v.scale_ = 1;
     v.sigmoid_ = upsample(space, rgb);
-    v.rgb_lanes_ = rgb_lanes(to_srgb(space, rgb));
+    v.rgb_lanes_ = rgb_lanes(to_srgb(space, rgb), v.role_);
     return v;
 }
 
@@ -80,7 +82,7 @@ SpectrumValue SpectrumValue::unbounded_rgb(const RgbColorSpace& space, Vec3 rgb)
     // At half of the range, where spectra are smooth (Pharr et al. 2023, section 4.6.6).
     v.scale_ = 2 * m;
     v.sigmoid_ = upsample(space, rgb / v.scale_);
-    v.rgb_lanes_ = rgb_lanes(to_srgb(space, rgb));
+    v.rgb_lanes_ = rgb_lanes(to_srgb(space, rgb), v.role_);
     return v;
 }
 
@@ -92,7 +94,7 @@ SpectrumValue SpectrumValue::illuminant_rgb(const RgbColorSpace& space, Vec3 rgb
     v.role_ = SpectrumRole::illuminant;
     v.scale_ = 2 * m;
     v.sigmoid_ = m > 0 ? upsample(space, rgb / v.scale_) : SigmoidCoefficients::grey(0);
-    v.rgb_lanes_ = rgb_lanes(to_srgb(space, rgb));
+    v.rgb_lanes_ = rgb_lanes(to_srgb(space, rgb), v.role_);
     // Named spectra live as long as the program: no owner.
     v.curve_ = std::shared_ptr<const SpectralCurve>(std::shared_ptr<void>(), space.illuminant);
     return v;
@@ -117,7 +119,7 @@ SpectrumValue SpectrumValue::curve(std::shared_ptr<const SpectralCurve> curve, S
     v.role_ = role;
     v.scale_ = curve->max_value() > 0 ? 1.0f : 0.0f;
     v.rgb_lanes_ =
-        rgb_lanes(role == SpectrumRole::illuminant ? color_of_light(*curve) : color_under_d65(*curve));
+        rgb_lanes(role == SpectrumRole::illuminant ? color_of_light(*curve) : color_under_d65(*curve), role);
     v.curve_ = std::move(curve);
     return v;
 }

@@ -28,8 +28,10 @@ enum class SpectrumRole : std::uint8_t {
 ///
 /// In RGB mode, eval gives linear sRGB in lanes 0 to 2 and their mean in lane 3: RGB converted to sRGB's
 /// primaries; a curve that is an albedo or unbounded as its colour under D65, so that the constant 1 is (1,
-/// 1, 1); a curve that is an illuminant as its XYZ divided by cie_y_integral. Lanes outside sRGB's gamut are
-/// clipped at 0, since no light or index is negative.
+/// 1, 1); a curve that is an illuminant as its XYZ divided by cie_y_integral. Of a colour outside
+/// sRGB's gamut, light has negative lanes, which the film turns into the positive ones of a wider space; what
+/// light is multiplied by (an albedo, an index) is clipped at 0 instead, since it would make light negative.
+/// The lanes of light that is not black always have a positive sum.
 class SpectrumValue {
   public:
     /// Black.

@@ -23,10 +23,10 @@ inline SpectrumValue calibrated(const SpectrumValue& color, float scale, ColorMo
     return color.scaled(scale * color.light_scale(mode));
 }
 
-/// How bright a colour is, for choosing among lights: the mean of its linear sRGB, which is positive for
-/// every light that can be seen.
+/// How bright a colour is, for choosing among lights: the mean of its linear sRGB, negative lanes left out,
+/// which is positive for every light that can be seen.
 inline float brightness(const SpectrumValue& color) {
-    Vec3 rgb = color.linear_srgb();
+    Vec3 rgb = max(color.linear_srgb(), Vec3(0));
     return (rgb.x + rgb.y + rgb.z) / 3;
 }
 

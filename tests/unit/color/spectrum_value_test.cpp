@@ -128,8 +128,26 @@ TEST(SpectrumValue, RgbLanesHoldTheMean) {
 TEST(SpectrumValue, ColorsOutsideSrgbAreClipped) {
     SpectrumValue green = SpectrumValue::albedo_rgb(*find_color_space("rec2020"), {0, 0.8f, 0});
     EXPECT_EQ(green.eval(Wavelengths::rgb())[0], 0);
-    SpectrumValue ember = SpectrumValue::blackbody(1000);
+    SpectrumValue ember = SpectrumValue::blackbody(1000, SpectrumRole::unbounded);
     EXPECT_GE(ember.eval(Wavelengths::rgb()).min(), 0);
+}
+
+TEST(SpectrumValue, LightOutsideSrgbKeepsItsColorInBothModes) {
+    for (const std::string& name : color_space_names()) {
+        const RgbColorSpace& space = *find_color_space(name);
+        for (Vec3 rgb : {Vec3(0.2f, 1, 0.3f), Vec3(0.1f, 0.1f, 1), Vec3(1, 0.1f, 0)}) {
+            SpectrumValue light = SpectrumValue::illuminant_rgb(space, rgb);
+            EXPECT_GT(light.eval(Wavelengths::rgb()).sum(), 0);
+            Vec3 seen = convert_rgb(srgb_space(), space) * film_rgb_of_light(ColorMode::rgb, light);
+            EXPECT_LT(largest_difference(seen, rgb), 1e-5f) << name;
+        }
+    }
+    SpectrumValue ember = SpectrumValue::blackbody(1000);
+    Vec3 expected = film_rgb_of_light(ColorMode::spectral, ember);
+    ASSERT_LT(expected.z, 0);
+    EXPECT_LT(
+        largest_difference(film_rgb_of_light(ColorMode::rgb, ember) / expected.x, expected / expected.x),
+        1e-2f);
 }
 
 TEST(SpectrumValue, UnboundedRgbIsNotClamped) {
