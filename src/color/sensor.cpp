@@ -1,5 +1,7 @@
 #include "color/sensor.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +13,16 @@ namespace alhazen {
 const std::vector<std::string>& Sensor::names() {
     static const std::vector<std::string> list{"cie1931"};
     return list;
+}
+
+bool Sensor::is_camera(std::string_view name) {
+    static constexpr std::array<std::string_view, 17> cameras{
+        "canon_eos_100d", "canon_eos_1dx_mkii", "canon_eos_200d",     "canon_eos_200d_mkii",
+        "canon_eos_5d",   "canon_eos_5d_mkii",  "canon_eos_5d_mkiii", "canon_eos_5d_mkiv",
+        "canon_eos_5ds",  "canon_eos_m",        "hasselblad_l1d_20c", "nikon_d810",
+        "nikon_d850",     "sony_ilce_6400",     "sony_ilce_7m3",      "sony_ilce_7rm3",
+        "sony_ilce_9"};
+    return std::find(cameras.begin(), cameras.end(), name) != cameras.end();
 }
 
 std::optional<Sensor> Sensor::find(const SensorSettings& settings, const RgbColorSpace& output,

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/vec.h"
@@ -30,6 +31,8 @@ class Sensor {
     static std::optional<Sensor> find(const SensorSettings& settings, const RgbColorSpace& output,
                                       std::string& error);
     static const std::vector<std::string>& names();
+    /// Whether the name is that of a camera which pbrt-v4 has and whose curves are not included here.
+    static bool is_camera(std::string_view name);
 
     /// The sample's channels; their expectation over the wavelengths is the pixel's. Terminated lanes count
     /// not.

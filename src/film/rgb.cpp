@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "color/color_space.h"
 #include "color/sensor.h"
 #include "film/film.h"
@@ -107,7 +109,9 @@ void RgbFilm::describe(Fields<RgbFilm>& f) {
          "price of energy")
         .above(0)
         .otherwise("no limit");
-    f.field("sensor", &F::sensor_name, "how colours are measured");
+    f.field("sensor", &F::sensor_name,
+            "how colours are measured; pbrt-v4's cameras are known by name only, and lenient loading takes "
+            "cie1931 for them");
     f.field("iso", &F::iso, "speed of the film; the picture is multiplied by exposure time times iso / 100")
         .above(0);
     f.field("whitebalance", &F::whitebalance, "colour temperature of light that shall look white; 0 for none")
@@ -178,6 +182,13 @@ void RgbFilm::finish(const Node& node, BuildContext& context) {
     for (const Parameter& p : node.parameters)
         if (const RgbColorSpace* space = find_color_space(p.color_space); space && space != &srgb_space())
             space_ = space;
+    if (Sensor::is_camera(sensor_name)) {
+        context.messages.add_unsupported(
+            place_of(node, "sensor"),
+            fmt::format("the curves of sensor \"{}\" are not included; known: cie1931", sensor_name),
+            "cie1931");
+        sensor_name = "cie1931";
+    }
     std::string error;
     auto sensor = Sensor::find({sensor_name, context.exposure_time, iso, whitebalance}, *space_, error);
     if (!sensor) {

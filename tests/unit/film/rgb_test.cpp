@@ -139,6 +139,23 @@ TEST(RgbFilm, OutputInTheColourSpaceOfTheDirective) {
     EXPECT_NEAR(image.at(0, 0, 2), 0.0164f, 1e-3f);
 }
 
+// A whole picture need not be lost because a camera's curves are.
+TEST(RgbFilm, CamerasOfPbrtAreUnsupportedNotUnknown) {
+    for (bool lenient : {false, true}) {
+        Messages messages;
+        messages.lenient = lenient;
+        BuildContext context{messages};
+        Node node;
+        node.type = "rgb";
+        node.parameters = {make_string("sensor", "nikon_d850")};
+        auto film = film_kinds().make(node, context, "");
+        ASSERT_EQ(messages.list().size(), 1u);
+        EXPECT_EQ(messages.error_count(), lenient ? 0u : 1u);
+        EXPECT_THAT(messages.list()[0].text,
+                    HasSubstr("the curves of sensor \"nikon_d850\" are not included; known: cie1931"));
+    }
+}
+
 TEST(RgbFilm, BadParametersAreErrors) {
     auto messages = [](std::vector<Parameter> p) { return messages_of(film_kinds(), "rgb", std::move(p)); };
     EXPECT_THAT(messages({make_integer("xresolution", 0)}), ElementsAre(HasSubstr("\"xresolution\" is 0")));
