@@ -20,7 +20,7 @@ struct BoxFilter final : Filter {
     Vec2 radius() const override { return {xradius, yradius}; }
     float integral() const override { return 4 * xradius * yradius; }
     FilterSample sample(Vec2 u) const override {
-        return {{(2 * u.x - 1) * xradius, (2 * u.y - 1) * yradius}, integral()};
+        return {{(2 * u.x - 1) * xradius, (2 * u.y - 1) * yradius}};
     }
 };
 

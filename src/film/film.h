@@ -29,7 +29,9 @@ struct Film {
 
     /// Makes the pixels, all black.
     virtual void start(ColorMode mode) = 0;
-    /// Adds one sample. L must be finite. weight is the filter's times the camera's.
+    /// Adds one sample. L must be finite. weight is the filter's, of either sign and of mean 1 over all
+    /// samples there could be (FilterSample); the pixel is the filtered L, and L itself where all samples
+    /// agree.
     virtual void add(Vec2i pixel, Spectrum L, const Wavelengths& lambda, float weight) = 0;
     /// What is there so far, as linear RGB: pixels().width() x pixels().height().
     virtual Image image() const = 0;

@@ -14,7 +14,7 @@ class FilterCurve {
   public:
     struct Sample {
         float x;
-        float weight; ///< curve / pdf: the integral of the curve's size, with its sign
+        float weight; ///< curve / pdf / integral(): its mean is 1
     };
 
     FilterCurve() = default;
@@ -28,15 +28,17 @@ class FilterCurve {
     }
     Sample sample(float u) const {
         auto s = table_.sample(u);
-        return {s.x, signs_[static_cast<std::size_t>(s.cell)] * table_.integral()};
+        return {s.x, weights_[static_cast<std::size_t>(s.cell)]};
     }
     float integral() const { return integral_; }
+    /// Whether the curve has an integral to speak of: its positive parts are not cancelled by the negative.
+    bool is_positive() const { return integral_ > 1e-3f * table_.integral(); }
 
   private:
     void build(const std::vector<float>& heights, float radius);
 
     PiecewiseConstant1D table_;
-    std::vector<float> signs_{1};
+    std::vector<float> weights_{1};
     float integral_ = 1;
 };
 
@@ -59,9 +61,15 @@ struct SeparableFilter : Filter {
         auto y = down_.sample(u.y);
         return {{x.x, y.x}, x.weight * y.weight};
     }
-    void finish(const Node&, BuildContext&) {
+    void finish(const Node& node, BuildContext& context) {
         across_ = FilterCurve(xradius, [&](float x) { return self().curve(x, xradius); });
         down_ = FilterCurve(yradius, [&](float y) { return self().curve(y, yradius); });
+        if (!across_.is_positive() || !down_.is_positive())
+            context.messages.add_error(
+                node.place,
+                "the integral of filter \"" + node.type +
+                    "\", taken in steps of 1/128 of the radius, is not positive; expected a filter that "
+                    "lets more through than it takes away");
     }
 
   protected:

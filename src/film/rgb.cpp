@@ -1,5 +1,14 @@
-/// The film of a digital camera: each pixel is the weighted mean of its samples as the sensor sees them,
+/// The film of a digital camera: each pixel is the filtered mean of its samples as the sensor sees them,
 /// turned into the colour space of the picture (Pharr et al. 2023, section 5.4).
+///
+/// Samples f come with the filter's weights w, drawn so that E[w] = 1 and the pixel is E[w f] (Ernst,
+/// Stamminger and Greiner 2006). For filters with negative lobes w is +k or -k, and of a few samples neither
+/// estimate at hand will do: sum(w f) / sum(w) divides by what may be 0, and sum(w f) / n makes even a
+/// constant picture noisy. But E[w f] = E[f] + cov(w, f), so the pixel is taken to be the plain mean of the
+/// samples plus their covariance with their weights: nothing to divide by, exact where all samples agree, and
+/// consistent. (In other words, the plain mean is a control variate. Dividing the covariance by n, not n - 1,
+/// leaves a bias of (E[f] - E[w f]) / n, a little less sharpening, and has less variance.) With weights that
+/// are all 1 it is the plain mean.
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -59,16 +68,21 @@ class RgbFilm final : public Film {
         if (largest > limit_) rgb *= limit_ / largest;
         Sums& s = sums_[index(pixel)];
         const double w = static_cast<double>(weight);
-        s.rgb += Vec3d(rgb) * w;
+        s.rgb += Vec3d(rgb);
+        s.weighted_rgb += Vec3d(rgb) * w;
         s.weight += w;
+        s.count += 1;
     }
     Image image() const override;
 
   private:
-    // One 32-byte half of a cache line.
+    // One cache line.
     struct Sums {
-        Vec3d rgb;
-        double weight = 0;
+        Vec3d rgb, weighted_rgb;
+        double weight = 0, count = 0;
+
+        // Mean of the samples plus their covariance with their weights.
+        Vec3d filtered() const { return (rgb * (1 - weight / count) + weighted_rgb) / count; }
     };
 
     std::size_t index(Vec2i p) const {
@@ -228,8 +242,8 @@ Image RgbFilm::image() const {
     auto out = image.values();
     for (std::size_t i = 0; i < sums_.size(); ++i) {
         const Sums& s = sums_[i];
-        if (s.weight == 0) continue;
-        Vec3 rgb(output_from_sensor_ * (s.rgb * (1 / s.weight)));
+        if (s.count == 0) continue;
+        Vec3 rgb(output_from_sensor_ * s.filtered());
         for (std::size_t c = 0; c < 3; ++c) out[3 * i + c] = rgb[static_cast<int>(c)];
     }
     return image;

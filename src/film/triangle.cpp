@@ -23,7 +23,7 @@ struct TriangleFilter final : Filter {
     Vec2 radius() const override { return {xradius, yradius}; }
     float integral() const override { return sqr(xradius) * sqr(yradius); }
     FilterSample sample(Vec2 u) const override {
-        return {{sample_tent(u.x, xradius), sample_tent(u.y, yradius)}, integral()};
+        return {{sample_tent(u.x, xradius), sample_tent(u.y, yradius)}};
     }
 };
 

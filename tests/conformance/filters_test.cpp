@@ -63,8 +63,9 @@ TEST(FilterConformance, SamplesFollowTheFiltersSize) {
     });
 }
 
-// E[w g(x)] must be the integral of f g: for g = 1 and for one that tells left from right and up from down.
-TEST(FilterConformance, WeightsMakeUpTheIntegral) {
+// E[w g(x)] must be the integral of f g over that of f: for g = 1 and for one that tells left from right and
+// up from down.
+TEST(FilterConformance, WeightsMakeUpTheFilteredValue) {
     for_each_filter([](const std::string&, const Filter& f) {
         constexpr int n = 512; // points a side; a regular grid, so that the error is that of the tables
         double mean = 0, moment = 0;
@@ -82,9 +83,9 @@ TEST(FilterConformance, WeightsMakeUpTheIntegral) {
             }
         mean /= n * n;
         moment /= n * n;
-        const double expected = integrate(f, [&](Vec2 p) { return f.eval(p); });
-        const double expected_moment = integrate(f, [&](Vec2 p) { return f.eval(p) * g(p); });
-        EXPECT_NEAR(mean, expected, 0.01 * largest);
+        const double integral = integrate(f, [&](Vec2 p) { return f.eval(p); });
+        const double expected_moment = integrate(f, [&](Vec2 p) { return f.eval(p) * g(p); }) / integral;
+        EXPECT_NEAR(mean, 1, 0.01 * largest);
         const double reach = static_cast<double>(dot(f.radius(), f.radius()));
         EXPECT_NEAR(moment, expected_moment, 0.01 * largest * reach);
     });

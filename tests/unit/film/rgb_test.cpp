@@ -68,15 +68,15 @@ TEST(RgbFilm, SizesFromTheCommandLine) {
     EXPECT_EQ(film->pixels(), (Rect2i{{99, 39}, {100, 40}}));
 }
 
-TEST(RgbFilm, PixelsAreWeightedMeans) {
+TEST(RgbFilm, PixelsAreMeansPlusCovariancesWithTheWeights) {
     auto film = make_film(sized(4, 3, {bounds({1, 4, 1, 3})}));
     film->start(ColorMode::rgb);
-    film->add({1, 1}, Spectrum(1, 2, 3, 2), Wavelengths::rgb(), 1);
-    film->add({1, 1}, Spectrum(4, 2, 0, 2), Wavelengths::rgb(), 3);
+    film->add({1, 1}, Spectrum(1, 2, 3, 2), Wavelengths::rgb(), 0.5f);
+    film->add({1, 1}, Spectrum(4, 2, 0, 2), Wavelengths::rgb(), 1.5f);
     film->add({3, 2}, Spectrum(8, 8, 8, 8), Wavelengths::rgb(), -0.5f);
     Image image = film->image();
     ASSERT_EQ(image.size(), Vec2i(3, 2));
-    EXPECT_NEAR(image.at(0, 0, 0), 13 / 4.0f, 1e-5f);
+    EXPECT_NEAR(image.at(0, 0, 0), 13 / 4.0f, 1e-5f); // 5 / 2 + 3 / 4
     EXPECT_NEAR(image.at(0, 0, 1), 2, 1e-5f);
     EXPECT_NEAR(image.at(0, 0, 2), 3 / 4.0f, 1e-5f);
     EXPECT_NEAR(image.at(2, 1, 0), 8, 1e-4f); // the only sample, whatever its weight
