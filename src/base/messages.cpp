@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,25 @@ std::string join_messages(const std::vector<Message>& messages) {
         all += m.full_text();
     }
     return all;
+}
+
+// By line and column within each file; the files in the order of their first messages.
+std::vector<Message> in_order(std::vector<Message> messages) {
+    std::unordered_map<std::string, std::size_t> ranks;
+    auto rank = [&](const Message& m) {
+        return ranks.try_emplace(m.place.file ? *m.place.file : "", ranks.size()).first->second;
+    };
+    for (const Message& m : messages) rank(m);
+    std::stable_sort(messages.begin(), messages.end(), [&](const Message& a, const Message& b) {
+        return std::tuple(rank(a), a.place.line, a.place.column) <
+               std::tuple(rank(b), b.place.line, b.place.column);
+    });
+    return messages;
+}
+
+bool is_earlier(const Place& a, const Place& b) {
+    return a.file && b.file && *a.file == *b.file &&
+           std::tuple(a.line, a.column) < std::tuple(b.line, b.column);
 }
 
 // Damerau-Levenshtein distance (optimal string alignment), ignoring case.
@@ -56,27 +76,49 @@ std::string Message::full_text() const {
 }
 
 SceneError::SceneError(std::vector<Message> messages)
-    : std::runtime_error(join_messages(messages)), messages_(std::move(messages)) {}
+    : std::runtime_error(join_messages(messages = in_order(std::move(messages)))),
+      messages_(std::move(messages)) {}
 
 SceneError::SceneError(Place place, std::string text)
     : SceneError(std::vector<Message>{{Message::Kind::error, std::move(place), std::move(text)}}) {}
 
+Remedy Remedy::use(std::string_view substitute, std::string_view note) {
+    return {fmt::format("use {} instead{}", substitute, note),
+            fmt::format("using {} instead{}", substitute, note)};
+}
+
 void Messages::add_error(Place place, std::string text) {
     std::scoped_lock lock(mutex_);
     list_.push_back({Message::Kind::error, std::move(place), std::move(text)});
-    if (++errors_ >= max_errors) throw SceneError(list_);
+    if (++errors_ >= max_errors) throw SceneError(counted_list());
 }
 
 void Messages::add_warning(Place place, std::string text) {
     std::scoped_lock lock(mutex_);
-    list_.push_back({Message::Kind::warning, std::move(place), std::move(text)});
+    auto [same, is_new] = warnings_.try_emplace(text, Repeated{list_.size()});
+    if (is_new) {
+        list_.push_back({Message::Kind::warning, std::move(place), std::move(text)});
+        return;
+    }
+    ++same->second.more;
+    // The threads that load shapes may come in any order.
+    Place& kept = list_[same->second.index].place;
+    if (is_earlier(place, kept)) kept = std::move(place);
 }
 
-void Messages::add_unsupported(Place place, std::string text, std::string_view substitute) {
+void Messages::add_unsupported(Place place, std::string text, const Remedy& remedy) {
     if (lenient)
-        add_warning(std::move(place), fmt::format("{}; using {} instead", text, substitute));
+        add_warning(std::move(place), fmt::format("{}; {}", text, remedy.doing));
     else
-        add_error(std::move(place), fmt::format("{}; --lenient would use {} instead", text, substitute));
+        add_error(std::move(place), fmt::format("{}; --lenient would {}", text, remedy.would));
+}
+
+std::vector<Message> Messages::counted_list() const {
+    std::vector<Message> counted = list_;
+    for (const auto& [text, repeated] : warnings_)
+        if (repeated.more > 0)
+            counted[repeated.index].text += fmt::format(" (and {} more like this)", repeated.more);
+    return counted;
 }
 
 std::size_t Messages::error_count() const {
@@ -86,7 +128,7 @@ std::size_t Messages::error_count() const {
 
 std::vector<Message> Messages::list() const {
     std::scoped_lock lock(mutex_);
-    return list_;
+    return in_order(counted_list());
 }
 
 std::vector<Message> Messages::warnings() const {
@@ -97,7 +139,14 @@ std::vector<Message> Messages::warnings() const {
 
 void Messages::throw_if_errors() const {
     std::scoped_lock lock(mutex_);
-    if (errors_ > 0) throw SceneError(list_);
+    if (errors_ > 0) throw SceneError(counted_list());
+}
+
+std::string ordinal(std::size_t n) {
+    bool is_teen = n / 10 % 10 == 1;
+    std::size_t last = n % 10;
+    std::string_view ending = is_teen ? "th" : last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th";
+    return fmt::format("{}{}", n, ending);
 }
 
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates) {

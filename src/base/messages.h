@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace alhazen {
@@ -34,7 +35,8 @@ struct Message {
     std::string full_text() const;
 };
 
-/// Thrown once loading has collected every message it could. what() holds all of them, one a line.
+/// Thrown once loading has collected every message it could. what() holds all of them, one a line: those of
+/// one file by line and column, and otherwise as they came.
 class SceneError : public std::runtime_error {
   public:
     explicit SceneError(std::vector<Message> messages);
@@ -43,6 +45,17 @@ class SceneError : public std::runtime_error {
 
   private:
     std::vector<Message> messages_;
+};
+
+/// What lenient loading does where strict loading stops.
+struct Remedy {
+    std::string would; ///< follows "--lenient would ": "leave it out"
+    std::string doing; ///< "leaving it out"
+
+    static Remedy leave_out() { return {"leave it out", "leaving it out"}; }
+    static Remedy ignore() { return {"ignore it", "ignoring it"}; }
+    /// "use SUBSTITUTE instead", and what else is to be said of that.
+    static Remedy use(std::string_view substitute, std::string_view note = "");
 };
 
 /// Collects messages; may be called from several threads. After max_errors errors (20), add_error throws the
@@ -55,22 +68,36 @@ class Messages {
     bool lenient = false;
 
     void add_error(Place place, std::string text);
+    /// Warnings of the same text are kept once, at the first place in their file, and counted.
     void add_warning(Place place, std::string text);
-    /// An error; when lenient, a warning that ends in "; using " + substitute instead.
-    void add_unsupported(Place place, std::string text, std::string_view substitute);
+    /// An error that ends in what --lenient would do about it; when lenient, a warning that this is done.
+    void add_unsupported(Place place, std::string text, const Remedy& remedy);
+    void add_unsupported(Place place, std::string text, std::string_view substitute) {
+        add_unsupported(std::move(place), std::move(text), Remedy::use(substitute));
+    }
 
     std::size_t error_count() const;
-    /// All messages so far, sorted by nothing: in the order in which they came.
+    /// All messages so far: those of one file by line and column, and otherwise as they came.
     std::vector<Message> list() const;
     std::vector<Message> warnings() const;
     /// Throws SceneError when an error was added.
     void throw_if_errors() const;
 
   private:
+    std::vector<Message> counted_list() const;
+
     mutable std::mutex mutex_;
     std::vector<Message> list_;
+    struct Repeated {
+        std::size_t index; ///< of the message kept
+        std::size_t more = 0;
+    };
+    std::unordered_map<std::string, Repeated> warnings_; ///< by text
     std::size_t errors_ = 0;
 };
+
+/// "1st", "2nd", "11th": says in messages which value is meant, counting from 1.
+std::string ordinal(std::size_t n);
 
 /// The candidate nearest to word by edit distance, or "" when none is near (at most a third of the word
 /// wrong).

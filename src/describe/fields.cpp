@@ -57,7 +57,7 @@ bool check_range(const FieldDoc& field, const Parameter& p, BuildContext& contex
     FieldDoc unbounded;
     auto bad = find_culprit(is_value ? field : unbounded, p);
     if (!bad) return true;
-    std::string which = p.count() > 1 ? fmt::format(" (value {})", bad->index + 1) : "";
+    std::string which = p.count() > 1 ? fmt::format(" (its {} value)", ordinal(bad->index + 1)) : "";
     context.messages.add_error(p.place,
                                fmt::format("parameter \"{}\" is {}{}; it must be {}", p.name, bad->value,
                                            which, bad->is_finite ? field.range_text() : "a finite number"));
@@ -69,7 +69,36 @@ void report_unknown_parameter(const Parameter& p, std::string_view owner,
     if (p.may_be_unused) return;
     context.messages.add_unsupported(
         p.place, fmt::format("unknown parameter \"{}\" of {}{}", p.name, owner, did_you_mean(p.name, known)),
-        "the values without it");
+        Remedy::ignore());
+}
+
+Substitution substitute_node(const Node& node, std::string_view type,
+                             const std::function<bool(const Parameter&)>& can_read) {
+    Substitution result;
+    result.node.type = type;
+    result.node.name = node.name;
+    result.node.place = node.place;
+    std::string prefix = std::string(type) + ".";
+    for (Parameter p : node.parameters) {
+        std::string given_name = p.name;
+        if (p.name.starts_with(prefix)) p.name.erase(0, prefix.size());
+        if (!result.node.find(p.name) && can_read(p))
+            result.node.parameters.push_back(std::move(p));
+        else if (!p.may_be_unused)
+            result.dropped.push_back(std::move(given_name));
+    }
+    return result;
+}
+
+void report_unknown_kind(const Node& node, std::string_view family, const std::vector<std::string>& known,
+                         const Substitution& substitution, BuildContext& context) {
+    std::string without;
+    for (const std::string& name : substitution.dropped)
+        without += (without.empty() ? ", without " : ", ") + quoted_text(name);
+    const std::string& type = substitution.node.type;
+    context.messages.add_unsupported(
+        node.place, fmt::format("unknown {} \"{}\"{}", family, node.type, did_you_mean(node.type, known)),
+        type.empty() ? Remedy::leave_out() : Remedy::use(quoted_text(type), without));
 }
 
 void report_missing_parameter(const FieldDoc& field, std::string_view owner, const Node& node,

@@ -63,6 +63,17 @@ void report_unknown_parameter(const Parameter& parameter, std::string_view owner
 void report_missing_parameter(const FieldDoc& field, std::string_view owner, const Node& node,
                               BuildContext& context);
 
+/// A node of a type that is not known, turned into one of a type that is.
+struct Substitution {
+    Node node;                        ///< its type is "" when there is nothing to take instead
+    std::vector<std::string> dropped; ///< parameters that the new type does not read
+};
+/// The parameters that can_read says are read go over; "TYPE.name" goes over as "name".
+Substitution substitute_node(const Node& node, std::string_view type,
+                             const std::function<bool(const Parameter&)>& can_read);
+void report_unknown_kind(const Node& node, std::string_view family, const std::vector<std::string>& known,
+                         const Substitution& substitution, BuildContext& context);
+
 /// The declared parameters of one kind T.
 template <class T>
 class Fields {
@@ -161,6 +172,18 @@ const Fields<T>& fields_of() {
     return fields;
 }
 
+/// Sets the member of the parameter's name; false when T declares none. Adds an error when the value does not
+/// fit.
+template <class T>
+bool read_field(T& object, const Parameter& parameter, BuildContext& context) {
+    for (const auto& f : fields_of<T>().list()) {
+        if (f.doc.name != parameter.name) continue;
+        if (check_range(f.doc, parameter, context)) f.read(object, parameter, context);
+        return true;
+    }
+    return false;
+}
+
 /// Sets object's members from the node's parameters. Adds an error for each parameter that is unknown, of the
 /// wrong type or out of range, and for each required one that is absent. owner says whose they are in
 /// messages: "material \"diffuse\"".
@@ -168,16 +191,10 @@ template <class T>
 void read_fields(T& object, const Node& node, std::string_view owner, BuildContext& context) {
     const auto& fields = fields_of<T>().list();
     for (const Parameter& p : node.parameters) {
-        const typename Fields<T>::Field* match = nullptr;
-        for (const auto& f : fields)
-            if (f.doc.name == p.name) match = &f;
-        if (!match) {
-            std::vector<std::string> known;
-            for (const auto& f : fields) known.push_back(f.doc.name);
-            report_unknown_parameter(p, owner, known, context);
-        } else if (check_range(match->doc, p, context)) {
-            match->read(object, p, context);
-        }
+        if (read_field(object, p, context)) continue;
+        std::vector<std::string> known;
+        for (const auto& f : fields) known.push_back(f.doc.name);
+        report_unknown_parameter(p, owner, known, context);
     }
     for (const auto& f : fields)
         if (f.doc.is_required && !node.find(f.doc.name))

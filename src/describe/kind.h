@@ -17,6 +17,8 @@ struct Kind {
     std::string name;
     std::function<KindDoc()> doc;
     std::function<std::unique_ptr<Family>(const Node&, BuildContext&)> make;
+    /// Whether a parameter of that name is declared, and can be read without an error.
+    std::function<bool(const Parameter&, const BuildContext&)> reads;
 };
 
 /// What a member of a family is called in messages: "material", "shape".
@@ -46,6 +48,17 @@ Kind<Family> make_kind(std::string name) {
         }
         return object;
     };
+    kind.reads = [](const Parameter& parameter, const BuildContext& context) {
+        Messages found;
+        BuildContext trial{found,
+                           context.color_mode,
+                           context.base_folder,
+                           context.textures,
+                           context.materials,
+                           context.texture_use};
+        T object;
+        return read_field(object, parameter, trial) && found.error_count() == 0;
+    };
     return kind;
 }
 
@@ -65,19 +78,18 @@ class KindList {
         for (const auto& k : kinds_) names.push_back(k.name);
         return names;
     }
-    /// The node's object, or nullptr with an error added (in lenient mode an unknown type is replaced by
-    /// substitute, if that is not empty, without the node's parameters).
+    /// The node's object, or nullptr with an error added. In lenient mode an unknown type is replaced by
+    /// substitute, if that is not empty, with those of the node's parameters that it can read.
     std::unique_ptr<Family> make(const Node& node, BuildContext& context, std::string_view substitute) const {
         if (const Kind<Family>* kind = find(node.type)) return kind->make(node, context);
-        std::string text = "unknown " + std::string(Family::family_name) + " \"" + node.type + "\"" +
-                           did_you_mean(node.type, names());
-        std::string instead = substitute.empty() ? "nothing" : "\"" + std::string(substitute) + "\"";
-        context.messages.add_unsupported(node.place, std::move(text), instead);
-        if (!context.messages.lenient || substitute.empty()) return nullptr;
-        Node replacement;
-        replacement.type = substitute;
-        replacement.place = node.place;
-        return find(substitute)->make(replacement, context);
+        const Kind<Family>* other = substitute.empty() ? nullptr : find(substitute);
+        Substitution substitution;
+        if (other)
+            substitution = substitute_node(node, substitute,
+                                           [&](const Parameter& p) { return other->reads(p, context); });
+        report_unknown_kind(node, Family::family_name, names(), substitution, context);
+        if (!context.messages.lenient || !other) return nullptr;
+        return other->make(substitution.node, context);
     }
 
   private:

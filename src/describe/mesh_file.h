@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "base/vec.h"
@@ -22,6 +23,11 @@ struct MeshData {
     /// The file's own number of each face, triangles first and then quadrilaterals in the order of the arrays
     /// above; or none.
     std::vector<int> face_indices;
+
+    /// Faces of the file with fewer than three corners or more than four, which are not in the arrays, and
+    /// the words for the first of them.
+    std::size_t odd_faces = 0;
+    std::string first_odd_face;
 
     std::size_t triangle_count() const { return indices.size() / 3; }
     std::size_t quad_count() const { return quad_indices.size() / 4; }

@@ -6,6 +6,25 @@
 
 namespace alhazen {
 
+namespace {
+
+/// What lenient loading makes of materials that are not known: the nearest in look.
+struct Substitute {
+    std::string_view unknown, known;
+};
+constexpr Substitute substitutes[] = {{"coatedconductor", "conductor"},
+                                      {"metal", "conductor"},
+                                      {"mirror", "conductor"},
+                                      {"glass", "dielectric"}};
+
+std::string_view substitute_for(std::string_view type) {
+    for (const Substitute& s : substitutes)
+        if (s.unknown == type) return s.known;
+    return "diffuse";
+}
+
+} // namespace
+
 /// Builds materials depth first: what a mixture mixes before the mixture.
 class MaterialSet::Builder {
   public:
@@ -32,8 +51,7 @@ class MaterialSet::Builder {
         if (states_[i] == State::done) return;
         states_[i] = State::building;
         if (build_parts(i, depth)) {
-            // In lenient mode the unknown becomes what a scene without materials has.
-            set_.list_[i] = material_kinds().make(nodes_[i], context_, "diffuse");
+            set_.list_[i] = material_kinds().make(nodes_[i], context_, substitute_for(nodes_[i].type));
         }
         states_[i] = State::done;
     }

@@ -21,6 +21,8 @@ class MaterialSet {
     const Material* at(std::size_t index) const { return list_[index].get(); }
     /// nullptr when there is none of that name (or it had errors, or is not built yet).
     const Material* find(const std::string& name) const;
+    /// Whether a node of that name was given, even one with errors.
+    bool has(const std::string& name) const { return by_name_.count(name) != 0; }
     std::vector<std::string> names() const;
     std::size_t size() const { return list_.size(); }
 

@@ -31,8 +31,7 @@ bool PbrtBuilder::check_world(std::string_view directive, const Place& place) {
 
 void PbrtBuilder::modernise(Node& node, std::string_view family) {
     if (const OldName* old = find_old_name(family, "", node.type)) {
-        std::string now = old->now.empty() ? "nothing" : fmt::format("\"{}\"", old->now);
-        messages_.add_unsupported(node.place, describe_old_name(*old), now);
+        messages_.add_unsupported(node.place, describe_old_name(*old), remedy_for(*old));
         if (!old->now.empty()) node.type = old->now;
     }
     auto is_replaced = [&](Parameter& p) {
@@ -40,7 +39,7 @@ void PbrtBuilder::modernise(Node& node, std::string_view family) {
         if (!old) return false;
         bool renamed = !old->now.empty() && old->hint.empty() && !node.find(old->now);
         messages_.add_unsupported(p.place, describe_old_name(*old),
-                                  renamed ? fmt::format("\"{}\"", old->now) : std::string("the default"));
+                                  renamed ? remedy_for(*old) : Remedy::ignore());
         if (renamed) p.name = old->now;
         return !renamed;
     };

@@ -19,16 +19,14 @@ struct TypeWord {
     ValueType type;
 };
 
-// pbrt's words, and the short ones that older files use for the same.
 constexpr std::array type_words{
-    TypeWord{"bool", ValueType::boolean},        TypeWord{"integer", ValueType::integer},
-    TypeWord{"float", ValueType::real},          TypeWord{"point2", ValueType::point2},
-    TypeWord{"vector2", ValueType::vector2},     TypeWord{"point3", ValueType::point3},
-    TypeWord{"point", ValueType::point3},        TypeWord{"vector3", ValueType::vector3},
-    TypeWord{"vector", ValueType::vector3},      TypeWord{"normal", ValueType::normal},
-    TypeWord{"normal3", ValueType::normal},      TypeWord{"rgb", ValueType::rgb},
-    TypeWord{"blackbody", ValueType::blackbody}, TypeWord{"spectrum", ValueType::spectrum},
-    TypeWord{"string", ValueType::string},       TypeWord{"texture", ValueType::texture}};
+    TypeWord{"bool", ValueType::boolean},      TypeWord{"integer", ValueType::integer},
+    TypeWord{"float", ValueType::real},        TypeWord{"point2", ValueType::point2},
+    TypeWord{"vector2", ValueType::vector2},   TypeWord{"point3", ValueType::point3},
+    TypeWord{"vector3", ValueType::vector3},   TypeWord{"normal", ValueType::normal},
+    TypeWord{"rgb", ValueType::rgb},           TypeWord{"blackbody", ValueType::blackbody},
+    TypeWord{"spectrum", ValueType::spectrum}, TypeWord{"string", ValueType::string},
+    TypeWord{"texture", ValueType::texture}};
 
 // A hopeless file must not make the search for duplicates slow.
 constexpr std::size_t most_parameters = 1000;
@@ -55,12 +53,12 @@ ValueType find_type(const std::string& word, const Place& place, Messages& messa
     for (const TypeWord& known : type_words)
         if (known.word == word) return known.type;
     if (const OldName* old = find_old_name("parameter type", "", word)) {
-        messages.add_unsupported(place, describe_old_name(*old), fmt::format("\"{}\"", old->now));
-        if (old->now == "rgb") return ValueType::rgb;
+        if (old->now.empty()) throw SyntaxError(place, describe_old_name(*old));
+        messages.add_unsupported(place, describe_old_name(*old), remedy_for(*old));
+        return find_type(std::string(old->now), place, messages);
     }
     std::vector<std::string> known;
-    for (const TypeWord& w : type_words)
-        if (w.word == type_name(w.type)) known.emplace_back(w.word);
+    for (const TypeWord& w : type_words) known.emplace_back(w.word);
     throw SyntaxError(
         place, fmt::format("unknown parameter type \"{}\"{}", printable(word), did_you_mean(word, known)));
 }

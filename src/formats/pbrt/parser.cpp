@@ -49,7 +49,7 @@ void PbrtParser::read_directive(const PbrtToken& word) {
         return;
     }
     if (const OldName* old = find_old_name("directive", "", word.text)) {
-        builder_.messages().add_unsupported(std::move(place), describe_old_name(*old), "nothing");
+        builder_.messages().add_unsupported(std::move(place), describe_old_name(*old), Remedy::leave_out());
         skip_to_directive();
         return;
     }

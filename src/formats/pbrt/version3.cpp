@@ -18,6 +18,9 @@ constexpr std::array old_names{
     OldName{"directive", "", "Interior", "MediumInterface", ""},
     OldName{"directive", "", "Exterior", "MediumInterface", ""},
     OldName{"parameter type", "", "color", "rgb", ""},
+    OldName{"parameter type", "", "point", "point3", ""},
+    OldName{"parameter type", "", "vector", "vector3", ""},
+    OldName{"parameter type", "", "normal3", "normal", ""},
     OldName{"parameter type", "", "xyz", "", "give \"rgb\" or \"spectrum\""},
     OldName{"film", "", "image", "rgb", ""},
     OldName{"camera", "", "environment", "spherical", "with \"string mapping\" \"equirectangular\""},
@@ -83,6 +86,10 @@ std::string describe_old_name(const OldName& old) {
                            old.name, hint);
     return fmt::format("{} \"{}\" is an older pbrt's name; pbrt-v4 calls it \"{}\"{}", old.family, old.name,
                        old.now, hint);
+}
+
+Remedy remedy_for(const OldName& old) {
+    return old.now.empty() ? Remedy::leave_out() : Remedy::use(fmt::format("\"{}\"", old.now));
 }
 
 } // namespace alhazen

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/messages.h"
+
 namespace alhazen {
 
 struct OldName {
@@ -19,5 +21,7 @@ struct OldName {
 const OldName* find_old_name(std::string_view family, std::string_view kind, std::string_view name);
 /// The message: material "matte" is pbrt-v3's name; pbrt-v4 has "diffuse" (...)
 std::string describe_old_name(const OldName& old);
+/// The name in v4 instead; when there is none, leaving the thing out.
+Remedy remedy_for(const OldName& old);
 
 } // namespace alhazen

@@ -117,10 +117,71 @@ TEST(Messages, StopsAfterTwentyErrors) {
 TEST(Messages, LenientTurnsUnsupportedIntoAWarning) {
     Messages messages;
     messages.lenient = true;
-    messages.add_unsupported(Place::of_file("a.pbrt"), "unknown shape \"blob\"", "nothing");
+    messages.add_unsupported(Place::of_file("a.pbrt"), "unknown film \"image\"", "\"rgb\"");
+    messages.add_unsupported({}, "unknown shape \"blob\"", Remedy::leave_out());
+    messages.add_unsupported({}, "unknown parameter \"x\"", Remedy::ignore());
     EXPECT_EQ(messages.error_count(), 0u);
-    EXPECT_EQ(messages.list()[0].full_text(),
-              "a.pbrt: warning: unknown shape \"blob\"; using nothing instead");
+    auto list = messages.list();
+    ASSERT_EQ(list.size(), 3u);
+    EXPECT_EQ(list[0].full_text(), "a.pbrt: warning: unknown film \"image\"; using \"rgb\" instead");
+    EXPECT_EQ(list[1].full_text(), "warning: unknown shape \"blob\"; leaving it out");
+    EXPECT_EQ(list[2].full_text(), "warning: unknown parameter \"x\"; ignoring it");
+}
+
+TEST(Messages, SaysWhatLenientWouldDo) {
+    Messages messages;
+    messages.add_unsupported({}, "a", Remedy::use("b", ", or so"));
+    messages.add_unsupported({}, "a", Remedy::leave_out());
+    messages.add_unsupported({}, "a", Remedy::ignore());
+    auto list = messages.list();
+    EXPECT_EQ(list.at(0).text, "a; --lenient would use b instead, or so");
+    EXPECT_EQ(list.at(1).text, "a; --lenient would leave it out");
+    EXPECT_EQ(list.at(2).text, "a; --lenient would ignore it");
+}
+
+Place place_at(const std::string& file, std::uint32_t line, std::uint32_t column) {
+    Place place = Place::of_file(file);
+    place.line = line;
+    place.column = column;
+    return place;
+}
+
+TEST(Messages, AreInTheOrderOfTheirPlaces) {
+    Messages messages;
+    messages.add_error(place_at("b", 9, 1), "3");
+    messages.add_error(place_at("a", 4, 1), "5");
+    messages.add_warning(place_at("b", 2, 7), "2");
+    messages.add_error(place_at("b", 2, 3), "1");
+    messages.add_error(place_at("b", 9, 1), "4");
+    try {
+        messages.throw_if_errors();
+        FAIL();
+    } catch (const SceneError& error) {
+        EXPECT_STREQ(error.what(), "b:2:3: error: 1\nb:2:7: warning: 2\nb:9:1: error: 3\nb:9:1: error: 4\n"
+                                   "a:4:1: error: 5");
+        std::string texts;
+        for (const Message& m : messages.list()) texts += m.text;
+        EXPECT_EQ(texts, "12345");
+    }
+}
+
+TEST(Messages, WarningsOfOneTextAreCounted) {
+    Messages messages;
+    for (std::uint32_t line : {7u, 3u, 5u}) messages.add_warning(place_at("a", line, 1), "unknown hair");
+    messages.add_warning(place_at("a", 4, 1), "unknown skin");
+    auto list = messages.warnings();
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0].full_text(), "a:3:1: warning: unknown hair (and 2 more like this)");
+    EXPECT_EQ(list[1].full_text(), "a:4:1: warning: unknown skin");
+}
+
+TEST(Messages, Ordinals) {
+    EXPECT_EQ(ordinal(1), "1st");
+    EXPECT_EQ(ordinal(2), "2nd");
+    EXPECT_EQ(ordinal(3), "3rd");
+    EXPECT_EQ(ordinal(4), "4th");
+    for (std::size_t n : {11u, 12u, 13u, 111u}) EXPECT_EQ(ordinal(n), std::to_string(n) + "th");
+    EXPECT_EQ(ordinal(1022), "1022nd");
 }
 
 TEST(File, WritesAtomicallyAndReadsBack) {

@@ -123,7 +123,7 @@ TEST_F(FieldsTest, UnknownParameter) {
     EXPECT_EQ(
         message(),
         "s.pbrt:4:9: error: unknown parameter \"radious\" of thing \"widget\" (did you mean \"radius\"?); "
-        "--lenient would use the values without it instead");
+        "--lenient would ignore it");
 }
 
 TEST_F(FieldsTest, UnknownParameterIsAWarningWhenLenient) {
@@ -177,7 +177,8 @@ TEST_F(FieldsTest, TheBoundItselfMayBeExcluded) {
 
 TEST_F(FieldsTest, ArraysNameTheCulprit) {
     build({make_array<float>("weights", ValueType::real, {1, -2, 3})});
-    EXPECT_EQ(message(), "s.pbrt:4:9: error: parameter \"weights\" is -2 (value 2); it must be at least 0");
+    EXPECT_EQ(message(),
+              "s.pbrt:4:9: error: parameter \"weights\" is -2 (its 2nd value); it must be at least 0");
 }
 
 TEST_F(FieldsTest, NumbersMustBeFinite) {
@@ -231,6 +232,43 @@ TEST(NodeTest, SetReplaces) {
     EXPECT_EQ(node.parameters.size(), 2u);
     EXPECT_EQ(std::get<std::vector<float>>(node.find("a")->values)[0], 2);
     EXPECT_EQ(node.find("c"), nullptr);
+}
+
+TEST_F(FieldsTest, ASubstituteKeepsTheParametersItReads) {
+    messages.lenient = true;
+    BuildContext context{messages};
+    Node node;
+    node.type = "gizmo";
+    node.name = "mine";
+    node.parameters = {make_float("radius", 0.5f),
+                       make_integer("widget.count", 7),
+                       make_string("hollow", "very"),
+                       make_float("height", 2),
+                       make_float("spin", 1),
+                       make_float("widget.radius", 9),
+                       make_array<float>("weights", ValueType::real, {1, -2}),
+                       make_string("file", "f")};
+    Parameter for_all = make_float("elsewhere", 1);
+    for_all.may_be_unused = true;
+    node.parameters.push_back(for_all);
+    thing = things().make(node, context, "widget");
+    auto* w = static_cast<const Widget*>(thing.get());
+    ASSERT_NE(w, nullptr) << message();
+    EXPECT_EQ(w->radius, 0.5f);
+    EXPECT_EQ(w->count, 7) << "a part's own parameter";
+    EXPECT_FALSE(w->hollow);
+    EXPECT_EQ(*w->height, 2);
+    EXPECT_TRUE(w->weights.empty()) << "one is out of range";
+    EXPECT_EQ(message(), "warning: unknown thing \"gizmo\" (did you mean \"widget\"?); using \"widget\" "
+                         "instead, without \"hollow\", \"spin\", \"widget.radius\", \"weights\"");
+}
+
+TEST_F(FieldsTest, WithoutASubstituteTheThingIsLeftOut) {
+    BuildContext context{messages};
+    Node node;
+    node.type = "zzzzzz";
+    EXPECT_EQ(things().make(node, context, ""), nullptr);
+    EXPECT_EQ(message(), "error: unknown thing \"zzzzzz\"; known: widget; --lenient would leave it out");
 }
 
 } // namespace

@@ -386,7 +386,7 @@ TEST(PbrtDirective, OlderNamesAreTold) {
         "use \"reflectance\" instead");
     EXPECT_EQ(errors_of(in_world("WorldEnd")), "<string>:2:1: error: directive \"WorldEnd\" is an older "
                                                "pbrt's; pbrt-v4 has nothing of that name: the world ends "
-                                               "where the file ends; --lenient would use nothing instead");
+                                               "where the file ends; --lenient would leave it out");
     EXPECT_EQ(errors_of(in_world("LightSource \"infinite\" \"string mapname\" \"a.exr\"")),
               "<string>:2:24: error: parameter \"mapname\" is an older pbrt's name; pbrt-v4 calls it "
               "\"filename\"; --lenient "

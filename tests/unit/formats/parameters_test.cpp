@@ -153,6 +153,27 @@ TEST(PbrtParameters, Declarations) {
     EXPECT_EQ(fault("\"color v\" [1 1 1]"),
               "<string>:2:1: error: parameter type \"color\" is an older pbrt's name; "
               "pbrt-v4 calls it \"rgb\"; --lenient would use \"rgb\" instead");
+    EXPECT_EQ(fault("\"xyz v\" [1 1 1]"),
+              "<string>:2:1: error: parameter type \"xyz\" is an older pbrt's; pbrt-v4 has nothing of that "
+              "name: give \"rgb\" or \"spectrum\"");
+    for (std::string old : {"point", "vector"})
+        EXPECT_EQ(fault("\"" + old + " v\" [1 1 1]"), "<string>:2:1: error: parameter type \"" + old +
+                                                          "\" is an older pbrt's name; pbrt-v4 calls it \"" +
+                                                          old + "3\"; --lenient would use \"" + old +
+                                                          "3\" instead");
+}
+
+TEST(PbrtParameters, LenientTakesPointForPoint3) {
+    Messages messages;
+    messages.lenient = true;
+    SceneDescription scene = read_pbrt_string(
+        in_world("Shape \"sphere\" \"point a\" [1 2 3] \"vector b\" [1 2 3] \"normal3 c\" [1 2 3]"), {},
+        messages);
+    const auto& p = scene.world.shapes.at(0).node.parameters;
+    EXPECT_EQ(p.at(0).type, ValueType::point3);
+    EXPECT_EQ(p.at(1).type, ValueType::vector3);
+    EXPECT_EQ(p.at(2).type, ValueType::normal);
+    EXPECT_EQ(messages.warnings().size(), 3u);
 }
 
 TEST(PbrtParameters, LenientTakesColorForRgb) {

@@ -241,9 +241,37 @@ TEST_F(MaterialTest, UnknownKindIsAnErrorOrGrey) {
     EXPECT_THAT(lenient.warnings().at(0).text, HasSubstr("using \"diffuse\""));
 }
 
+TEST_F(MaterialTest, LenientKeepsTheParametersOfUnknownKinds) {
+    messages.lenient = true;
+    build({node_of("hair", {make_rgb("reflectance", 0.8f, 0.1f, 0.1f), make_float("beta_m", 0.1f)})},
+          ColorMode::rgb);
+    ASSERT_NE(set.find("m"), nullptr);
+    EXPECT_EQ(messages.error_count(), 0u);
+    EXPECT_THAT(first_message(), HasSubstr("; using \"diffuse\" instead, without \"beta_m\""));
+    Wavelengths lambda = Wavelengths::rgb();
+    Spectrum ambient = set.find("m")->at(hit(), lambda, arena)->whitted(oblique).ambient;
+    EXPECT_NEAR(ambient[0], 0.8f, 1e-6f);
+    EXPECT_NEAR(ambient[2], 0.1f, 1e-6f);
+}
+
+TEST_F(MaterialTest, LenientTakesTheNearestKind) {
+    messages.lenient = true;
+    build({node_of("metal", {}, "a"), node_of("glass", {make_float("eta", 2)}, "b")});
+    ASSERT_EQ(messages.list().size(), 2u);
+    EXPECT_THAT(messages.list()[0].text, HasSubstr("; using \"conductor\" instead"));
+    EXPECT_THAT(messages.list()[1].text, testing::EndsWith("; using \"dielectric\" instead"));
+}
+
+TEST_F(MaterialTest, RemembersTheNamesOfWrongMaterials) {
+    build({node_of("difuse", {}, "a")});
+    EXPECT_EQ(set.find("a"), nullptr);
+    EXPECT_TRUE(set.has("a"));
+    EXPECT_FALSE(set.has("b"));
+}
+
 TEST_F(MaterialTest, ReflectanceAboveOneIsAnError) {
     build({node_of("diffuse", {make_rgb("reflectance", 0.5f, 1.5f, 0)})});
-    EXPECT_THAT(first_message(), HasSubstr("\"reflectance\" is 1.5 (value 2); it must be 0 to 1"));
+    EXPECT_THAT(first_message(), HasSubstr("\"reflectance\" is 1.5 (its 2nd value); it must be 0 to 1"));
 }
 
 TEST_F(MaterialTest, InterfaceHasNoBsdf) {
