@@ -48,8 +48,9 @@ void MeshChecks::indices(const std::vector<int>& indices, int corners, std::stri
                           face));
     for (std::size_t i = 0; i < indices.size(); ++i)
         if (indices[i] < 0 || static_cast<std::size_t>(indices[i]) >= vertices) {
-            error(fmt::format("\"indices\" value {} is {}; it must be from 0 to {}, as there are {} vertices",
-                              i + 1, indices[i], static_cast<long>(vertices) - 1, vertices));
+            error(fmt::format(
+                "the {} value of \"indices\" is {}; it must be from 0 to {}, as there are {} vertices",
+                ordinal(i + 1), indices[i], static_cast<long>(vertices) - 1, vertices));
             return;
         }
 }
@@ -57,22 +58,22 @@ void MeshChecks::indices(const std::vector<int>& indices, int corners, std::stri
 void MeshChecks::finite(std::string_view name, const std::vector<Vec3>& values) const {
     std::size_t i = first_not_finite(values);
     if (i < values.size())
-        error(fmt::format("\"{}\" value {} is ({}, {}, {}); it must be finite", name, i + 1, values[i].x,
-                          values[i].y, values[i].z));
+        error(fmt::format("the {} value of \"{}\" is ({}, {}, {}); it must be finite", ordinal(i + 1), name,
+                          values[i].x, values[i].y, values[i].z));
 }
 
 void MeshChecks::finite(std::string_view name, const std::vector<Vec2>& values) const {
     std::size_t i = first_not_finite(values);
     if (i < values.size())
-        error(fmt::format("\"{}\" value {} is ({}, {}); it must be finite", name, i + 1, values[i].x,
-                          values[i].y));
+        error(fmt::format("the {} value of \"{}\" is ({}, {}); it must be finite", ordinal(i + 1), name,
+                          values[i].x, values[i].y));
 }
 
 void MeshChecks::finite_in_world(const std::vector<Vec3>& positions) const {
     std::size_t i = first_not_finite(positions);
     if (i < positions.size())
-        error(fmt::format("vertex {} is not finite in world space; the transformation makes it too large",
-                          i + 1));
+        error(fmt::format("the {} vertex is not finite in world space; the transformation makes it too large",
+                          ordinal(i + 1)));
 }
 
 void positions_to_world(std::vector<Vec3>& positions, const Transform& world_from_object) {

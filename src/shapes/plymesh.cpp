@@ -34,6 +34,11 @@ struct FileTriangles final : TriangleMesh {
             context.messages.add_error(place, prefix + e.what());
             return;
         }
+        if (data.odd_faces > 0) {
+            std::string more = data.odd_faces > 1 ? fmt::format(" ({} faces like this)", data.odd_faces) : "";
+            context.messages.add_unsupported(place, prefix + data.first_odd_face + more, Remedy::leave_out());
+            if (!context.messages.lenient) return;
+        }
         split_quads(data);
         P = std::move(data.P);
         N = std::move(data.N);

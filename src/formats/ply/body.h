@@ -160,7 +160,8 @@ class PlyBody {
                 else
                     skip_property(p);
             }
-            if (plan.face_index >= 0) (corners == 3 ? mesh_.face_indices : quad_faces_).push_back(face);
+            if (plan.face_index >= 0 && corners != 0)
+                (corners == 3 ? mesh_.face_indices : quad_faces_).push_back(face);
         }
     }
 
@@ -194,9 +195,14 @@ class PlyBody {
 
     std::size_t read_face(const PlyProperty& p) {
         std::uint64_t n = list_length(p);
-        if (n != 3 && n != 4)
-            cursor_.fail("face " + std::to_string(cursor_.progress.number) + " has " + std::to_string(n) +
-                         " vertices; expected 3 or 4");
+        if (n != 3 && n != 4) {
+            if (mesh_.odd_faces++ == 0)
+                mesh_.first_odd_face =
+                    cursor_.located("face " + std::to_string(cursor_.progress.number) + " has " +
+                                    std::to_string(n) + " vertices; expected 3 or 4");
+            for (std::uint64_t i = 0; i < n; ++i) cursor_.skip(p.type);
+            return 0;
+        }
         std::array<int, 4> v{};
         for (std::size_t i = 0; i < n; ++i) v[i] = whole_int(p.type);
         if (n == 3)

@@ -21,12 +21,12 @@ std::string early_end(const PlyProgress& progress) {
 
 } // namespace
 
-void PlyAsciiCursor::fail(const std::string& text) const {
+std::string PlyAsciiCursor::located(const std::string& text) const {
     // Only counted now: lines matter to nobody while all is well.
     auto first = bytes_.begin() + static_cast<std::ptrdiff_t>(start_);
     auto last = bytes_.begin() + static_cast<std::ptrdiff_t>(at_);
     auto line = header_lines_ + 1 + static_cast<std::size_t>(std::count(first, last, '\n'));
-    throw std::runtime_error(fmt::format("line {}: {}", line, text));
+    return fmt::format("line {}: {}", line, text);
 }
 
 std::string_view PlyAsciiCursor::word() {
@@ -61,8 +61,8 @@ std::int64_t PlyAsciiCursor::whole(PlyType) {
 }
 
 template <bool swap>
-void PlyBinaryCursor<swap>::fail(const std::string& text) const {
-    throw std::runtime_error(fmt::format("byte {}: {}", at_, text));
+std::string PlyBinaryCursor<swap>::located(const std::string& text) const {
+    return fmt::format("byte {}: {}", at_, text);
 }
 
 template <bool swap>

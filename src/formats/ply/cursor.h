@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,8 +32,10 @@ class PlyAsciiCursor {
     std::size_t left() const { return bytes_.size() - at_; }
     /// The least a value can take: a digit and a blank.
     static std::size_t least_size(PlyType) { return 2; }
+    /// The text with the line.
+    std::string located(const std::string& text) const;
     /// Throws std::runtime_error with the line.
-    [[noreturn]] void fail(const std::string& text) const;
+    [[noreturn]] void fail(const std::string& text) const { throw std::runtime_error(located(text)); }
 
     PlyProgress progress;
 
@@ -88,8 +91,10 @@ class PlyBinaryCursor {
     std::size_t left() const { return bytes_.size() - at_; }
     const char* here() const { return bytes_.data() + at_; }
     static std::size_t least_size(PlyType type) { return ply_size(type); }
+    /// The text with the byte.
+    std::string located(const std::string& text) const;
     /// Throws std::runtime_error with the byte.
-    [[noreturn]] void fail(const std::string& text) const;
+    [[noreturn]] void fail(const std::string& text) const { throw std::runtime_error(located(text)); }
 
     PlyProgress progress;
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -152,6 +153,19 @@ TEST(Ply, QuadrilateralsAreKeptInPatchOrder) {
         EXPECT_EQ(mesh.quad_indices, (std::vector<int>{0, 1, 3, 2, 1, 2, 4, 3}));
         EXPECT_EQ(mesh.face_indices, (std::vector<int>{10, 12, 11, 13}));
     }
+}
+
+TEST(Ply, OddFacesAreLeftOutAndCounted) {
+    MeshData mesh = parse_ply(
+        header("ascii",
+               "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+               "element face 4\nproperty list uchar int vertex_indices\nproperty int face_indices\n") +
+        "0 0 0 1 0 0 1 1 0 0 1 0 2 2 2\n3 0 1 2 10\n5 0 1 2 3 4 11\n3 2 3 4 12\n2 0 1 13\n");
+    EXPECT_EQ(mesh.indices, (std::vector<int>{0, 1, 2, 2, 3, 4}));
+    EXPECT_EQ(mesh.face_indices, (std::vector<int>{10, 12}));
+    EXPECT_EQ(mesh.odd_faces, 2u);
+    EXPECT_THAT(mesh.first_odd_face, testing::EndsWith("face 1 has 5 vertices; expected 3 or 4"));
+    EXPECT_EQ(mesh.first_odd_face.substr(0, 5), "line ");
 }
 
 TEST(Ply, SplitsQuadrilaterals) {

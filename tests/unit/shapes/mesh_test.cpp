@@ -92,9 +92,11 @@ TEST(TriangleMesh, SaysWhatIsWrong) {
     EXPECT_THAT(errors_of("trianglemesh", {}), HasSubstr("needs the parameter"));
     EXPECT_THAT(errors_of("trianglemesh", {points({})}), HasSubstr("there are no vertices"));
     EXPECT_THAT(errors_of("trianglemesh", {square}), HasSubstr("there are no triangles"));
-    EXPECT_THAT(errors_of("trianglemesh", {square, indices({0, 1, 4})}),
-                HasSubstr("\"indices\" value 3 is 4; it must be from 0 to 3, as there are 4 vertices"));
-    EXPECT_THAT(errors_of("trianglemesh", {square, indices({0, -1, 2})}), HasSubstr("value 2 is -1"));
+    EXPECT_THAT(
+        errors_of("trianglemesh", {square, indices({0, 1, 4})}),
+        HasSubstr("the 3rd value of \"indices\" is 4; it must be from 0 to 3, as there are 4 vertices"));
+    EXPECT_THAT(errors_of("trianglemesh", {square, indices({0, -1, 2})}),
+                HasSubstr("the 2nd value of \"indices\" is -1"));
     EXPECT_THAT(errors_of("trianglemesh", {square, indices({0, 1, 2, 3})}),
                 HasSubstr("\"indices\" has 4 values; it must have 3 for each triangle"));
     for (const char* name : {"N", "S"})
@@ -113,7 +115,7 @@ TEST(TriangleMesh, SaysWhatIsWrong) {
                 HasSubstr("finite"));
     EXPECT_THAT(errors_of("trianglemesh", {points({{0, 0, 0}, {1e30f, 0, 0}, {0, 1, 0}})},
                           {.world_from_object = Matrix4::scale({1e10, 1, 1})}),
-                HasSubstr("vertex 2 is not finite in world space"));
+                HasSubstr("the 2nd vertex is not finite in world space"));
 }
 
 TEST(PlyMesh, ComesThroughTheReader) {
@@ -136,10 +138,30 @@ TEST(PlyMesh, ComesThroughTheReader) {
     EXPECT_FLOAT_EQ(mesh->area(0) + mesh->area(1), 1);
     data.P[3].y = nan;
     EXPECT_THAT(errors_of("plymesh", {filename}, making),
-                HasSubstr("mesh file \"a.ply\": \"P\" value 4 is (1, nan, 0); it must be finite"));
+                HasSubstr("mesh file \"a.ply\": the 4th value of \"P\" is (1, nan, 0); it must be finite"));
     EXPECT_THAT(errors_of("plymesh", {}), HasSubstr("filename"));
     data = {};
     EXPECT_THAT(errors_of("plymesh", {filename}, making), HasSubstr("there are no vertices"));
+}
+
+TEST(PlyMesh, LenientLeavesOddFacesOut) {
+    MeshData data;
+    data.P = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    data.indices = {0, 1, 2};
+    data.odd_faces = 2;
+    data.first_odd_face = "line 9: face 1 has 5 vertices; expected 3 or 4";
+    Making making;
+    making.reader = [&](const std::filesystem::path&) { return data; };
+    auto filename = make_string("filename", "a.ply");
+    std::string text = "mesh file \"a.ply\": " + data.first_odd_face + " (2 faces like this); ";
+    EXPECT_EQ(errors_of("plymesh", {filename}, making),
+              "test.pbrt: error: " + text + "--lenient would leave it out\n");
+    Messages messages;
+    messages.lenient = true;
+    auto mesh = try_make("plymesh", {filename}, messages, making);
+    ASSERT_NE(mesh, nullptr);
+    EXPECT_EQ(mesh->primitive_count(), 1u);
+    EXPECT_EQ(messages.warnings().at(0).text, text + "leaving it out");
 }
 
 TEST(BilinearMesh, SaysWhatIsWrong) {
