@@ -39,6 +39,7 @@ struct ConvertOptions {
 int run_convert(const ConvertOptions& options) {
     Image image = load(options.in);
     ToneCurve curve = *find_tone_curve(options.tonemap);
+    if (!std::isfinite(options.exposure)) throw std::runtime_error("--exposure must be a finite number");
     float gain = std::exp2(options.exposure);
     if (gain != 1 || curve != ToneCurve::none)
         for (int y = 0; y < image.height(); ++y)

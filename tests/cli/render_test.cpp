@@ -92,7 +92,7 @@ TEST_F(Render, SetReachesTheIntegratorThatIsAskedForAndSpectraByName) {
         0);
     expect_error("render scene.pbrt -o a.png --integrator whitted --set integrator.regularize=true",
                  "integrator \"whitted\" has no parameter \"regularize\"");
-    EXPECT_EQ(alhazen("render scene.pbrt -o a.png --set material.Clay.reflectance=metal-Cu-k").exit_code, 2);
+    EXPECT_EQ(alhazen("render scene.pbrt -o a.png --set material.Clay.reflectance=stdillum-A").exit_code, 0);
     EXPECT_EQ(alhazen("render scene.pbrt -o a.pfm --set sampler.seed=16777216").exit_code, 0);
     EXPECT_EQ(alhazen("render scene.pbrt -o b.pfm --set sampler.seed=16777217").exit_code, 0);
     EXPECT_NE(file_text(path("a.pfm")), file_text(path("b.pfm")));
@@ -112,7 +112,10 @@ TEST_F(Render, NestedInstancesUpToTheLimit) {
     EXPECT_EQ(alhazen("render nest.pbrt -o a.pfm --spp 4").exit_code, 0);
     write("flat.pbrt", nested(1));
     EXPECT_EQ(alhazen("render flat.pbrt -o b.pfm --spp 4").exit_code, 0);
-    EXPECT_EQ(file_text(path("a.pfm")), file_text(path("b.pfm")));
+    // Each level may round once more.
+    Image deep = picture("a.pfm"), flat = picture("b.pfm");
+    for (std::size_t i = 0; i < deep.values().size(); ++i)
+        EXPECT_NEAR(deep.values()[i], flat.values()[i], 1e-4f);
     write("nest.pbrt", nested(9));
     expect_error("render nest.pbrt -o a.pfm", "object \"o9\" nests instances 9 deep; at most 8 are possible");
 }
