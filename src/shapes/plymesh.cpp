@@ -36,7 +36,8 @@ struct FileTriangles final : TriangleMesh {
         }
         if (data.odd_faces > 0) {
             std::string more = data.odd_faces > 1 ? fmt::format(" ({} faces like this)", data.odd_faces) : "";
-            context.messages.add_unsupported(place, prefix + data.first_odd_face + more, Remedy::leave_out());
+            context.messages.add_unsupported(place, prefix + data.first_odd_face + more,
+                                             Remedy{"leave such faces out", "leaving such faces out"});
             if (!context.messages.lenient) return;
         }
         split_quads(data);

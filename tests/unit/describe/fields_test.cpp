@@ -259,7 +259,7 @@ TEST_F(FieldsTest, ASubstituteKeepsTheParametersItReads) {
     EXPECT_FALSE(w->hollow);
     EXPECT_EQ(*w->height, 2);
     EXPECT_TRUE(w->weights.empty()) << "one is out of range";
-    EXPECT_EQ(message(), "warning: unknown thing \"gizmo\" (did you mean \"widget\"?); using \"widget\" "
+    EXPECT_EQ(message(), "warning: unknown thing \"gizmo\"; known: widget; using \"widget\" "
                          "instead, without \"hollow\", \"spin\", \"widget.radius\", \"weights\"");
 }
 

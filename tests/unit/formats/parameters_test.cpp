@@ -60,12 +60,9 @@ TEST(PbrtParameters, Float) {
 TEST(PbrtParameters, Vectors) {
     expect_values<Vec2>("\"point2 v\" [1 2 3 4]", ValueType::point2, {{1, 2}, {3, 4}});
     expect_values<Vec2>("\"vector2 v\" [1 2]", ValueType::vector2, {{1, 2}});
-    for (std::string word : {"point3", "point"})
-        expect_values<Vec3>("\"" + word + " v\" [1 2 3 4 5 6]", ValueType::point3, {{1, 2, 3}, {4, 5, 6}});
-    for (std::string word : {"vector3", "vector"})
-        expect_values<Vec3>("\"" + word + " v\" [1 2 3]", ValueType::vector3, {{1, 2, 3}});
-    for (std::string word : {"normal", "normal3"})
-        expect_values<Vec3>("\"" + word + " v\" [1 2 3]", ValueType::normal, {{1, 2, 3}});
+    expect_values<Vec3>("\"point3 v\" [1 2 3 4 5 6]", ValueType::point3, {{1, 2, 3}, {4, 5, 6}});
+    expect_values<Vec3>("\"vector3 v\" [1 2 3]", ValueType::vector3, {{1, 2, 3}});
+    expect_values<Vec3>("\"normal v\" [1 2 3]", ValueType::normal, {{1, 2, 3}});
     EXPECT_EQ(fault("\"point3 v\" [1 2 3 4]"),
               "<string>:2:1: error: \"point3 v\" has 4 numbers; expected a multiple of 3");
     EXPECT_EQ(fault("\"point2 v\" [1 2 3]"),

@@ -155,19 +155,20 @@ TEST(PlyMesh, LenientLeavesOddFacesOut) {
     auto filename = make_string("filename", "a.ply");
     std::string text = "mesh file \"a.ply\": " + data.first_odd_face + " (2 faces like this); ";
     EXPECT_EQ(errors_of("plymesh", {filename}, making),
-              "test.pbrt: error: " + text + "--lenient would leave it out\n");
+              "error: " + text + "--lenient would leave such faces out\n");
     Messages messages;
     messages.lenient = true;
     auto mesh = try_make("plymesh", {filename}, messages, making);
     ASSERT_NE(mesh, nullptr);
     EXPECT_EQ(mesh->primitive_count(), 1u);
-    EXPECT_EQ(messages.warnings().at(0).text, text + "leaving it out");
+    EXPECT_EQ(messages.warnings().at(0).text, text + "leaving such faces out");
 }
 
 TEST(BilinearMesh, SaysWhatIsWrong) {
     auto square = points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
     EXPECT_THAT(errors_of("bilinearmesh", {points({{0, 0, 0}})}), HasSubstr("there are no patches"));
-    EXPECT_THAT(errors_of("bilinearmesh", {square, indices({0, 1, 2, 4})}), HasSubstr("value 4 is 4"));
+    EXPECT_THAT(errors_of("bilinearmesh", {square, indices({0, 1, 2, 4})}),
+                HasSubstr("the 4th value of \"indices\" is 4"));
     EXPECT_THAT(errors_of("bilinearmesh", {square, indices({0, 1, 2})}),
                 HasSubstr("it must have 4 for each patch"));
 }
