@@ -2,23 +2,6 @@
 
 namespace alhazen {
 
-namespace {
-
-Vec3d project_point(const Matrix4& a, Vec3d p) {
-    const auto& m = a.m;
-    return {m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
-            m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3],
-            m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]};
-}
-
-Vec3d rotate_vector(const Matrix4& a, Vec3d v) {
-    const auto& m = a.m;
-    return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-            m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
-}
-
-} // namespace
-
 Matrix4 operator*(const Matrix4& a, const Matrix4& b) {
     Matrix4 r;
     for (std::size_t i = 0; i < 4; ++i)
@@ -171,19 +154,6 @@ Vec3 Transform::point_error(Vec3 p, Vec3 error) const {
         r[i] = (gamma_bound(4) + 1) * carried + gamma_bound(4) * magnitude;
     }
     return r;
-}
-
-Vec3d Transform::point(Vec3d p) const {
-    return project_point(exact_, p);
-}
-Vec3d Transform::vector(Vec3d v) const {
-    return rotate_vector(exact_, v);
-}
-Vec3d Transform::inverse_point(Vec3d p) const {
-    return project_point(exact_inverse_, p);
-}
-Vec3d Transform::inverse_vector(Vec3d v) const {
-    return rotate_vector(exact_inverse_, v);
 }
 
 } // namespace alhazen

@@ -21,6 +21,12 @@ struct Matrix4 {
     /// Determinant of the upper left 3 x 3 part; negative when the matrix mirrors.
     double determinant3() const;
     bool is_finite() const;
+    /// Of an affine matrix, whose last row is 0 0 0 1.
+    Vec3d point(Vec3d p) const { return vector(p) + Vec3d{m[0][3], m[1][3], m[2][3]}; }
+    Vec3d vector(Vec3d v) const {
+        return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+                m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
+    }
 
     static Matrix4 translate(Vec3d v);
     static Matrix4 scale(Vec3d v);
@@ -47,10 +53,10 @@ class Transform {
     /// Bound of the absolute error of point(p), given p is known to within +-error.
     Vec3 point_error(Vec3 p, Vec3 error) const;
 
-    Vec3d point(Vec3d p) const;
-    Vec3d vector(Vec3d v) const;
-    Vec3d inverse_point(Vec3d p) const;
-    Vec3d inverse_vector(Vec3d v) const;
+    Vec3d point(Vec3d p) const { return exact_.point(p); }
+    Vec3d vector(Vec3d v) const { return exact_.vector(v); }
+    Vec3d inverse_point(Vec3d p) const { return exact_inverse_.point(p); }
+    Vec3d inverse_vector(Vec3d v) const { return exact_inverse_.vector(v); }
 
     Vec3 inverse_point(Vec3 p) const { return apply_point(inv_, p); }
     Vec3 inverse_vector(Vec3 v) const { return apply_vector(inv_, v); }

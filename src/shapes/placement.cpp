@@ -12,6 +12,16 @@ Vec3d row(const Matrix4& a, std::size_t i) {
     return {a.m[i][0], a.m[i][1], a.m[i][2]};
 }
 
+// Whether the matrix is a similarity: its columns are orthogonal and of one length.
+bool keeps_shapes(const Matrix4& m, double relative_tolerance) {
+    Matrix4 t = m.transposed();
+    Vec3d x = row(t, 0), y = row(t, 1), z = row(t, 2);
+    double xx = dot(x, x), tolerance = relative_tolerance * xx;
+    return std::abs(dot(y, y) - xx) < tolerance && std::abs(dot(z, z) - xx) < tolerance &&
+           std::abs(dot(x, y)) < tolerance && std::abs(dot(y, z)) < tolerance &&
+           std::abs(dot(z, x)) < tolerance;
+}
+
 // c +- half, rounded outward.
 Bounds3 box_around(Vec3d c, Vec3d half) {
     Bounds3 b;
@@ -33,13 +43,9 @@ void Placement::set(const Node& node, const BuildContext& context) {
     if (!std::isfinite(determinant_) || determinant_ == 0)
         context.messages.add_error(node.place,
                                    "the shape's transformation flattens it; it must be invertible");
-    // The columns of a similarity are orthogonal and of one length.
-    Matrix4 t = m.transposed();
-    Vec3d x = row(t, 0), y = row(t, 1), z = row(t, 2);
-    double xx = dot(x, x), tolerance = 1e-6 * xx;
-    is_similarity_ = std::abs(dot(y, y) - xx) < tolerance && std::abs(dot(z, z) - xx) < tolerance &&
-                     std::abs(dot(x, y)) < tolerance && std::abs(dot(y, z)) < tolerance &&
-                     std::abs(dot(z, x)) < tolerance;
+    is_similarity_ = keeps_shapes(m, 1e-6);
+    uniform_scale_.reset();
+    if (keeps_shapes(m, 1e-13)) uniform_scale_ = std::cbrt(std::abs(determinant_));
 }
 
 Vec3 Placement::point_error(Vec3d p) const {
@@ -59,7 +65,7 @@ Vec3d Placement::transposed_inverse(Vec3d n) const {
 
 Vec3 Placement::normal(Vec3d n) const {
     Vec3 world(normalize(transposed_inverse(n)));
-    return is_turned_ ? -world : world;
+    return turned(world);
 }
 
 double Placement::solid_angle_ratio(Vec3 w) const {

@@ -2,6 +2,8 @@
 /// precision, so that a floor of radius 10000 and a marble on it are both exact to the last bit of a float.
 #pragma once
 
+#include <optional>
+
 #include "base/bounds.h"
 #include "base/ray.h"
 #include "describe/context.h"
@@ -26,6 +28,7 @@ class Placement {
                 world_from_object_.inverse_vector(Vec3d(ray.d))};
     }
     Vec3d to_object(Vec3 p) const { return world_from_object_.inverse_point(Vec3d(p)); }
+    Vec3d to_object_vector(Vec3d v) const { return world_from_object_.inverse_vector(v); }
     Vec3d point(Vec3d p) const { return world_from_object_.point(p); }
     Vec3d vector(Vec3d v) const { return world_from_object_.vector(v); }
     /// Bound of the error of Vec3(point(p)).
@@ -39,6 +42,11 @@ class Placement {
     double solid_angle_ratio(Vec3 w) const;
     /// Whether all directions are stretched alike.
     bool is_similarity() const { return is_similarity_; }
+    /// By how much lengths grow, where lengths grow alike in all directions to the last bits of a double;
+    /// nullopt otherwise.
+    std::optional<double> uniform_scale() const { return uniform_scale_; }
+    /// The normal that points outward by the parameterisation, turned to the side it shall have.
+    Vec3 turned(Vec3 outward) const { return is_turned_ ? -outward : outward; }
 
     /// Boxes in the world, rounded outward: around a ball at the origin, around a disk across the z axis, and
     /// around a box.
@@ -52,6 +60,7 @@ class Placement {
     Transform world_from_object_;
     double determinant_ = 1;
     bool is_similarity_ = true;
+    std::optional<double> uniform_scale_ = 1;
     bool is_turned_ = false; ///< normals point against the parameterisation
 };
 

@@ -51,7 +51,7 @@ inline double to_radians(float degrees) {
 ///     double object_area() const;
 template <class Q>
 struct QuadricShape : Shape {
-    bool intersect(const Ray& ray, std::uint32_t /*primitive*/, Intersection& hit) const final {
+    bool intersect(const Ray& ray, std::uint32_t /*primitive*/, Intersection& hit) const override {
         ObjectRay r = placement.to_object(ray);
         Roots roots = self().roots(r);
         for (int i = 0; i < roots.count; ++i) {
@@ -65,7 +65,7 @@ struct QuadricShape : Shape {
         return false;
     }
 
-    Hit surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const final {
+    Hit surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const override {
         ObjectRay r = placement.to_object(ray);
         Vec3d p = self().snap(r.at(exact_distance(r, static_cast<double>(met.t))));
         ObjectTangents tangents = self().tangents(p);

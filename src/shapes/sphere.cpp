@@ -5,10 +5,27 @@
 #include <fmt/format.h>
 
 #include "shapes/quadric.h"
+#include "shapes/rounding.h"
 
 namespace alhazen {
 
 namespace {
+
+/// The smaller positive root of (d.d) t^2 + 2 (o.d) t + o.o - r^2 = 0, which is where the ray o + t d enters
+/// a sphere around the origin, or leaves it from inside. 0 when the ray misses (or is NaN).
+double intersect_ray_sphere(Vec3d o, Vec3d d, double r) {
+    double a = dot(d, d), h = dot(o, d), c = dot(o, o) - r * r;
+    if (c > 0 && h >= 0) return 0; // outside, and flying away
+    // How far the ray passes the centre tells the discriminant h^2 - a c without cancellation (Haines et al.
+    // 2019, "Precision Improvements for Ray/Sphere Intersection").
+    Vec3d miss = o - d * (h / a);
+    double discriminant = a * (r * r - dot(miss, miss));
+    if (!(discriminant >= 0)) return 0;
+    // The roots are q / a and c / q, up to both signs; from inside, where c < 0, one of them is positive.
+    double q = std::abs(h) + std::sqrt(discriminant);
+    if (c > 0) return c / q;
+    return h < 0 ? q / a : -c / q;
+}
 
 struct Sphere final : QuadricShape<Sphere> {
     float radius = 1;
@@ -25,15 +42,25 @@ struct Sphere final : QuadricShape<Sphere> {
         hi.z = z_max_;
         return intersection_of(placement.ball_bounds(r_), placement.box_bounds(lo, hi));
     }
+    bool intersect(const Ray& ray, std::uint32_t primitive, Intersection& hit) const override {
+        if (!ball_) return QuadricShape::intersect(ray, primitive, hit);
+        auto t = static_cast<float>(ball_->intersect(ray));
+        if (!(t > 0) || !(t < ray.tmax)) return false;
+        hit.t = t;
+        hit.u = hit.v = 0;
+        return true;
+    }
+    Hit surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const override {
+        return ball_ ? ball_surface(ray, primitive, met) : QuadricShape::surface(ray, primitive, met);
+    }
     std::optional<ShapeSample> sample_from(std::uint32_t primitive, Vec3 reference, Vec2 u) const override;
     float pdf_from(std::uint32_t primitive, Vec3 reference, const Hit& hit, Vec3 wi) const override;
 
     Roots roots(const ObjectRay& r) const {
-        double a = dot(r.d, r.d), h = dot(r.o, r.d), c = length(r.o);
-        // How far the ray passes the centre tells the discriminant without cancellation (Haines et al. 2019,
-        // "Precision Improvements for Ray/Sphere Intersection").
-        double miss = length(r.o - r.d * (h / a));
-        return solve_quadratic(a, h, (c + r_) * (c - r_), a * (r_ + miss) * (r_ - miss));
+        double a = dot(r.d, r.d), h = dot(r.o, r.d);
+        Vec3d miss = r.o - r.d * (h / a);
+        double r2 = r_ * r_;
+        return solve_quadratic(a, h, dot(r.o, r.o) - r2, a * (r2 - dot(miss, miss)));
     }
     Vec3d snap(Vec3d p) const { return p * (r_ / length(p)); }
     bool covers(Vec3d p) const {
@@ -43,7 +70,7 @@ struct Sphere final : QuadricShape<Sphere> {
     ObjectTangents tangents(Vec3d p) const {
         // On the axis the angle is arbitrary: just beside it all is defined.
         if (p.x == 0 && p.y == 0) p.x = 1e-6 * r_;
-        double across = std::hypot(p.x, p.y), phi = azimuth(p), theta = std::atan2(across, p.z);
+        double across = std::sqrt(p.x * p.x + p.y * p.y), phi = azimuth(p), theta = std::atan2(across, p.z);
         double range = theta_max_ - theta_min_;
         return {{static_cast<float>(phi / phi_max_), static_cast<float>((theta - theta_min_) / range)},
                 Vec3d{-p.y, p.x, 0} * phi_max_,
@@ -58,6 +85,35 @@ struct Sphere final : QuadricShape<Sphere> {
     double object_area() const { return phi_max_ * r_ * (z_max_ - z_min_); }
 
   private:
+    /// A whole sphere that is one in the world, too: met there without transforming the ray.
+    struct Ball {
+        Vec3d centre;
+        double radius;
+
+        double intersect(const Ray& ray) const {
+            return intersect_ray_sphere(Vec3d(ray.o) - centre, Vec3d(ray.d), radius);
+        }
+    };
+
+    Hit ball_surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const {
+        // Not met.t, which is rounded.
+        Vec3d outward = normalize(Vec3d(ray.o) - ball_->centre + Vec3d(ray.d) * ball_->intersect(ray));
+        Vec3d from_centre = outward * ball_->radius, p = ball_->centre + from_centre;
+        ObjectTangents tangents = this->tangents(placement.to_object_vector(from_centre));
+        Hit hit;
+        hit.p = Vec3(p);
+        hit.p_error = rounding_error(p, abs(ball_->centre) + abs(from_centre));
+        hit.wo = Vec3(normalize(Vec3d(-ray.d)));
+        hit.ng = hit.ns = placement.turned(Vec3(outward));
+        hit.dpdu = Vec3(placement.vector(tangents.dpdu));
+        hit.dpdv = Vec3(placement.vector(tangents.dpdv));
+        hit.uv = tangents.uv;
+        hit.t = met.t;
+        hit.time = ray.time;
+        hit.primitive = primitive;
+        return hit;
+    }
+
     // Squared distance of the reference from the centre over the radius squared, when the cone of directions
     // towards the sphere is to be sampled; 0 otherwise.
     double cone_distance2(Vec3 reference) const {
@@ -78,6 +134,7 @@ struct Sphere final : QuadricShape<Sphere> {
 
     double r_ = 1, z_min_ = -1, z_max_ = 1, theta_min_ = 0, theta_max_ = 0, phi_max_ = 0;
     bool is_whole_ = true;
+    std::optional<Ball> ball_;
 };
 
 void Sphere::describe(Fields<Sphere>& f) {
@@ -111,6 +168,8 @@ void Sphere::finish(const Node& node, BuildContext& context) {
     phi_max_ = to_radians(phimax);
     is_whole_ = z_min_ <= -r_ && z_max_ >= r_ && phimax >= 360;
     finish_placement(node, context);
+    if (auto scale = placement.uniform_scale(); is_whole_ && scale)
+        ball_ = Ball{placement.point(Vec3d{}), r_ * *scale};
 }
 
 // From outside, directions uniform in the cone that the sphere fills (Shirley, Wang and Zimmerman 1996). In
