@@ -96,7 +96,9 @@ class PhongBsdf final : public Bsdf {
         float l_dot_n = wo.z < 0 ? -wi.z : wi.z;
         if (l_dot_n <= 0) return 0;
         float r_dot_v = dot(mirrored(wi), wo);
-        return values_.diffuse * l_dot_n + values_.specular * power_lobe(r_dot_v, values_.shininess);
+        Spectrum matte = values_.diffuse * l_dot_n;
+        if (r_dot_v <= 0 || values_.specular.is_black()) return matte;
+        return matte + values_.specular * power_lobe(r_dot_v, values_.shininess);
     }
 
   private:
@@ -177,8 +179,26 @@ struct Phong final : Material {
                                make_float("transparency", 0.8f), make_float("shininess", 0)});
     }
 
+    // Without textures, RGB mode has one BSDF for all points.
+    void finish(const Node&, BuildContext&) {
+        if (!is_constant()) return;
+        Wavelengths rgb = Wavelengths::rgb();
+        everywhere_.emplace(values(TexturePoint({}, {}, {}), rgb));
+    }
+
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
-        TexturePoint at(hit);
+        if (everywhere_ && lambda.mode == ColorMode::rgb) return arena.make<PhongBsdf>(*everywhere_);
+        return arena.make<PhongBsdf>(values(TexturePoint(hit), lambda));
+    }
+
+  private:
+    bool is_constant() const {
+        bool colors = diffuse.is_constant() && specular.is_constant() && (!ambient || ambient->is_constant());
+        return colors && shininess.is_constant() && reflectivity.is_constant() &&
+               transparency.is_constant() && eta.is_constant();
+    }
+
+    PhongValues values(const TexturePoint& at, const Wavelengths& lambda) const {
         auto color = [&](const SpectrumTexture& t) { return clamp(t.eval(at, lambda), 0, 1); };
         auto fraction = [&](const FloatTexture& t) { return std::clamp(t.eval(at), 0.0f, 1.0f); };
         PhongValues v;
@@ -190,8 +210,10 @@ struct Phong final : Material {
         v.transparency = fraction(transparency);
         float index = eta.eval(at);
         v.eta = index > 0 ? index : 1;
-        return arena.make<PhongBsdf>(v);
+        return v;
     }
+
+    std::optional<PhongBsdf> everywhere_;
 };
 
 } // namespace
