@@ -38,27 +38,31 @@ class PathContext {
     Wavelengths lambda;
     Arena& arena;
 
-    /// An awaitable that gives the nearest hit, or nullopt. The ray is traced at once, without suspending.
+    /// An awaitable that gives the nearest hit, or nullopt. The ray, which must live until then, is traced at
+    /// once, without suspending.
     auto closest(const Ray& ray) {
         // The first ray of a path comes from the camera.
         ++(first_ray_ ? counts_.camera : counts_.bounce);
         first_ray_ = false;
-        return Ready<std::optional<Hit>>{scene.closest(ray)};
+        // Traced in await_resume, so that the hit is made where it will stay.
+        return Ready{[this, &ray] { return scene.closest(ray); }};
     }
     /// An awaitable that gives true when nothing blocks the ray before its tmax.
     auto visible(const Ray& ray) {
         ++counts_.shadow;
-        return Ready<bool>{scene.visible(ray)};
+        return Ready{[this, &ray] { return scene.visible(ray); }};
     }
 
   private:
-    template <class T>
+    template <class Answer>
     struct Ready {
-        T value;
+        Answer answer;
         bool await_ready() const noexcept { return true; }
         void await_suspend(std::coroutine_handle<>) const noexcept {}
-        T await_resume() { return std::move(value); }
+        auto await_resume() const { return answer(); }
     };
+    template <class Answer>
+    Ready(Answer) -> Ready<Answer>;
 
     RayCounts& counts_;
     bool first_ray_ = true;

@@ -63,8 +63,9 @@ struct Whitted final : Integrator {
         if (!bsdf) co_return co_await trace_ray(hit->spawn(ray.d), depth - 1, path); // only a border of media
 
         Vec3 n = face_forward(hit->ns, hit->wo);
-        Spectrum local = co_await compute_lighting(*hit, *bsdf, path);
-        WhittedTerms k = bsdf->whitted(hit->shading_frame().to_local(hit->wo));
+        Frame frame = hit->shading_frame();
+        WhittedTerms k = bsdf->whitted(frame.to_local(hit->wo));
+        Spectrum local = co_await compute_lighting(*hit, frame, *bsdf, k.ambient, path);
         Spectrum sum = (Spectrum(1) - k.mirror) * local;
         if (!k.mirror.is_black()) {
             Ray mirrored = hit->spawn(reflect_ray(ray.d, n));
@@ -80,10 +81,10 @@ struct Whitted final : Integrator {
 
     /// ka Ia + sum over lights [kd max(0, L.N) + ks max(0, R.V)^n] Il for phong materials, the BSDF's value
     /// for others; a light behind any object adds nothing. Area lights and environments give one sample each.
-    Task<Spectrum> compute_lighting(const Hit& hit, const Bsdf& bsdf, PathContext& path) const {
-        Frame frame = hit.shading_frame();
+    Task<Spectrum> compute_lighting(const Hit& hit, const Frame& frame, const Bsdf& bsdf, Spectrum ka,
+                                    PathContext& path) const {
         Vec3 wo = frame.to_local(hit.wo);
-        Spectrum sum = bsdf.whitted(wo).ambient * ambient.eval(path.lambda);
+        Spectrum sum = ka * ambient.eval(path.lambda);
         if (hit.area_light) sum += hit.area_light->emitted(hit, path.lambda);
         for (const Light* light : path.scene.lights()) {
             auto arriving = light->sample({hit.p, hit.ns}, path.samples.next2(), path.lambda);
