@@ -48,8 +48,9 @@ class Nearest {
 template <Query query, class Leaf>
 bool walk(const BinaryLayout& layout, const Ray& ray, Intersection& hit, Leaf&& leaf) {
     if (layout.order.empty() || !is_traceable(ray)) return false;
+    // Without defaults, since setting the whole stack to zero would take longer than a short walk.
     struct Entry {
-        BinaryChild child;
+        std::uint32_t index, count;
         float t;
     };
     Entry stack[Tree::max_depth];
@@ -67,7 +68,7 @@ bool walk(const BinaryLayout& layout, const Ray& ray, Intersection& hit, Leaf&& 
             bool left = t[0] <= -t[2], right = t[1] <= -t[3];
             if (left && right) {
                 int far = t[1] < t[0] ? 0 : 1;
-                stack[height++] = {node.child(far), far ? t[1] : t[0]};
+                stack[height++] = {node.index[far], node.count[far], far ? t[1] : t[0]};
                 current = node.child(1 - far);
                 continue;
             }
@@ -80,7 +81,7 @@ bool walk(const BinaryLayout& layout, const Ray& ray, Intersection& hit, Leaf&& 
             if (height == 0) return nearest.found();
             --height;
         } while (stack[height].t > nearest.tmax());
-        current = stack[height].child;
+        current = {stack[height].index, stack[height].count};
     }
 }
 
