@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "color/color_space.h"
 #include "color/tone.h"
 #include "image/codec.h"
 #include "image/metrics.h"
@@ -36,10 +37,23 @@ struct ConvertOptions {
     bool single = false;
 };
 
+// Tone curves are made for sRGB's primaries.
+void to_srgb(Image& image) {
+    auto name = image.info.metadata.find("color_space");
+    if (name == image.info.metadata.end()) return;
+    const RgbColorSpace* space = find_color_space(name->second);
+    image.info.metadata.erase(name);
+    if (!space) return;
+    Matrix3 convert = convert_rgb(*space, srgb_space());
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) image.set_rgb(x, y, convert * image.rgb(x, y));
+}
+
 int run_convert(const ConvertOptions& options) {
     Image image = load(options.in);
     ToneCurve curve = *find_tone_curve(options.tonemap);
     if (!std::isfinite(options.exposure)) throw std::runtime_error("--exposure must be a finite number");
+    if (curve != ToneCurve::none) to_srgb(image);
     float gain = std::exp2(options.exposure);
     if (gain != 1 || curve != ToneCurve::none)
         for (int y = 0; y < image.height(); ++y)
