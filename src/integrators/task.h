@@ -45,8 +45,8 @@ class [[nodiscard]] Task {
         struct ResumeParent {
             bool await_ready() noexcept { return false; }
             std::coroutine_handle<> await_suspend(std::coroutine_handle<promise_type> done) noexcept {
-                std::coroutine_handle<> parent = done.promise().parent;
-                return parent ? parent : std::noop_coroutine();
+                std::coroutine_handle<> awaiting = done.promise().parent;
+                return awaiting ? awaiting : std::noop_coroutine();
             }
             void await_resume() noexcept {}
         };
