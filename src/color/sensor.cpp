@@ -1,34 +1,28 @@
 #include "color/sensor.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/messages.h"
+#include "color/camera_curves.h"
 
 namespace alhazen {
 
-const std::vector<std::string>& Sensor::names() {
-    static const std::vector<std::string> list{"cie1931"};
-    return list;
-}
+namespace {
 
-bool Sensor::is_camera(std::string_view name) {
-    static constexpr std::array<std::string_view, 17> cameras{
-        "canon_eos_100d", "canon_eos_1dx_mkii", "canon_eos_200d",     "canon_eos_200d_mkii",
-        "canon_eos_5d",   "canon_eos_5d_mkii",  "canon_eos_5d_mkiii", "canon_eos_5d_mkiv",
-        "canon_eos_5ds",  "canon_eos_m",        "hasselblad_l1d_20c", "nikon_d810",
-        "nikon_d850",     "sony_ilce_6400",     "sony_ilce_7m3",      "sony_ilce_7rm3",
-        "sony_ilce_9"};
-    return std::find(cameras.begin(), cameras.end(), name) != cameras.end();
-}
+// Of cameras whose white balance is not given (pbrt-v4).
+constexpr float camera_kelvin = 6500;
+
+} // namespace
 
 std::optional<Sensor> Sensor::find(const SensorSettings& settings, const RgbColorSpace& output,
                                    std::string& error) {
-    if (settings.name != "cie1931") {
-        error = fmt::format("unknown sensor \"{}\"{}", settings.name, did_you_mean(settings.name, names()));
+    const CameraCurves* camera = find_camera_curves(settings.name);
+    if (!camera && settings.name != "cie1931") {
+        const std::vector<std::string> names(sensor_names.begin(), sensor_names.end());
+        error = fmt::format("unknown sensor \"{}\"{}", settings.name, did_you_mean(settings.name, names));
         return std::nullopt;
     }
     auto check = [&](const char* what, float value) {
@@ -41,10 +35,21 @@ std::optional<Sensor> Sensor::find(const SensorSettings& settings, const RgbColo
         return std::nullopt;
     Sensor sensor;
     sensor.imaging_ratio_ = settings.exposure_time * settings.iso / 100;
-    if (settings.white_balance > 0) {
-        Vec3d white = cie_integrals(SpectralCurve::daylight(settings.white_balance));
-        if (white.y > 0) sensor.white_balance_ = adapt_white(chromaticity(white), output.white);
+    sensor.camera_ = camera;
+    const float kelvin = camera && settings.white_balance == 0 ? camera_kelvin : settings.white_balance;
+    if (kelvin == 0) return sensor;
+    const SpectralCurve light = SpectralCurve::daylight(kelvin);
+    const Vec3d white = cie_integrals(light);
+    if (white.y > 0) sensor.white_balance_ = adapt_white(chromaticity(white), output.white);
+    sensor.xyz_from_channels_ = sensor.white_balance_;
+    if (!camera) return sensor;
+    const std::optional<Matrix3> fitted = xyz_from_camera(*camera, light, *output.illuminant);
+    if (!fitted) {
+        error = fmt::format("white balance of the sensor is {} K; by that light {} sees no colours", kelvin,
+                            settings.name);
+        return std::nullopt;
     }
+    sensor.xyz_from_channels_ = *fitted;
     return sensor;
 }
 
@@ -52,14 +57,15 @@ Vec3 Sensor::to_sensor_rgb(Spectrum radiance, const Wavelengths& wavelengths) co
     if (wavelengths.mode == ColorMode::rgb)
         return Vec3(radiance[0], radiance[1], radiance[2]) * imaging_ratio_;
     Spectrum weighted = safe_divide(radiance, wavelengths.pdf);
-    ObserverSample observer = sample_observer(wavelengths.lambda);
-    return Vec3((observer.x * weighted).average(), (observer.y * weighted).average(),
-                (observer.z * weighted).average()) *
+    ObserverSample curves =
+        camera_ ? camera_->sample(wavelengths.lambda) : sample_observer(wavelengths.lambda);
+    return Vec3((curves.x * weighted).average(), (curves.y * weighted).average(),
+                (curves.z * weighted).average()) *
            imaging_ratio_;
 }
 
 Matrix3 Sensor::output_from_sensor(const RgbColorSpace& output, ColorMode mode) const {
-    if (mode == ColorMode::spectral) return output.rgb_from_xyz * white_balance_;
+    if (mode == ColorMode::spectral) return output.rgb_from_xyz * xyz_from_channels_;
     if (white_balance_ == Matrix3{}) return convert_rgb(srgb_space(), output);
     return output.rgb_from_xyz * white_balance_ * srgb_space().xyz_from_rgb;
 }

@@ -14,8 +14,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "color/color_space.h"
 #include "color/sensor.h"
 #include "film/film.h"
@@ -26,6 +24,13 @@ enum class TransferCurve { srgb, linear };
 template <>
 struct EnumNames<TransferCurve> {
     static constexpr std::array names{"srgb", "linear"};
+};
+
+/// Counts sensor_names.
+enum class SensorChoice {};
+template <>
+struct EnumNames<SensorChoice> {
+    static constexpr auto names = sensor_names;
 };
 
 namespace {
@@ -44,7 +49,7 @@ class RgbFilm final : public Film {
     std::string file;
     bool savefp16 = true;
     std::optional<float> maxcomponentvalue;
-    std::string sensor_name = "cie1931";
+    SensorChoice sensor{}; ///< the CIE observer
     float iso = 100;
     float whitebalance = 0;
     TransferCurve transfer = TransferCurve::srgb;
@@ -123,12 +128,13 @@ void RgbFilm::describe(Fields<RgbFilm>& f) {
          "price of energy")
         .above(0)
         .otherwise("no limit");
-    f.field("sensor", &F::sensor_name,
-            "how colours are measured; pbrt-v4's cameras are known by name only, and lenient loading takes "
-            "cie1931 for them");
+    f.field("sensor", &F::sensor,
+            "how colours are measured: by the CIE observer, or as the pixels of a camera see them and its "
+            "maker would correct them; in RGB mode cameras differ from the observer by their white only");
     f.field("iso", &F::iso, "speed of the film; the picture is multiplied by exposure time times iso / 100")
         .above(0);
-    f.field("whitebalance", &F::whitebalance, "colour temperature of light that shall look white; 0 for none")
+    f.field("whitebalance", &F::whitebalance,
+            "colour temperature of light that shall look white; 0 for none, or 6500 for cameras")
         .at_least(0)
         .unit("K");
     f.field("transfer", &F::transfer,
@@ -196,20 +202,14 @@ void RgbFilm::finish(const Node& node, BuildContext& context) {
     for (const Parameter& p : node.parameters)
         if (const RgbColorSpace* space = find_color_space(p.color_space); space && space != &srgb_space())
             space_ = space;
-    if (Sensor::is_camera(sensor_name)) {
-        context.messages.add_unsupported(
-            place_of(node, "sensor"),
-            fmt::format("the curves of sensor \"{}\" are not included; known: cie1931", sensor_name),
-            "cie1931");
-        sensor_name = "cie1931";
-    }
+    const std::string name = sensor_names[static_cast<std::size_t>(sensor)];
     std::string error;
-    auto sensor = Sensor::find({sensor_name, context.exposure_time, iso, whitebalance}, *space_, error);
-    if (!sensor) {
+    auto found = Sensor::find({name, context.exposure_time, iso, whitebalance}, *space_, error);
+    if (!found) {
         context.messages.add_error(place_of(node, "sensor"), error);
         return;
     }
-    sensor_ = *sensor;
+    sensor_ = *found;
     limit_ = maxcomponentvalue.value_or(infinity);
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "color/color_space.h"
+#include "color/sensor.h"
 #include "film/film.h"
 #include "tests/support/family.h"
 
@@ -139,21 +140,23 @@ TEST(RgbFilm, OutputInTheColourSpaceOfTheDirective) {
     EXPECT_NEAR(image.at(0, 0, 2), 0.0164f, 1e-3f);
 }
 
-// A whole picture need not be lost because a camera's curves are.
-TEST(RgbFilm, CamerasOfPbrtAreUnsupportedNotUnknown) {
-    for (bool lenient : {false, true}) {
-        Messages messages;
-        messages.lenient = lenient;
-        BuildContext context{messages};
-        Node node;
-        node.type = "rgb";
-        node.parameters = {make_string("sensor", "nikon_d850")};
-        auto film = film_kinds().make(node, context, "");
-        ASSERT_EQ(messages.list().size(), 1u);
-        EXPECT_EQ(messages.error_count(), lenient ? 0u : 1u);
-        EXPECT_THAT(messages.list()[0].text,
-                    HasSubstr("the curves of sensor \"nikon_d850\" are not included; known: cie1931"));
-    }
+TEST(RgbFilm, KnowsTheSensorsOfPbrtByName) {
+    for (const char* name : sensor_names)
+        EXPECT_THAT(messages_of(film_kinds(), "rgb", {make_string("sensor", name)}), testing::IsEmpty())
+            << name;
+}
+
+// Radiance 1 at every wavelength, by a camera with half a second and ISO 50: a quarter of what
+// CameraSensor.ConstantRadianceIsTheAreaOfTheCurves derives.
+TEST(RgbFilm, CamerasSeeByTheirCurves) {
+    auto film = make_film(sized(1, 1, {make_string("sensor", "nikon_d850"), make_float("iso", 50)}), 0.5f);
+    film->start(ColorMode::spectral);
+    for (int i = 0; i < 4096; ++i)
+        film->add({0, 0}, Spectrum(1), Wavelengths::sample_visible((static_cast<float>(i) + 0.5f) / 4096), 1);
+    Image image = film->image();
+    EXPECT_NEAR(image.values()[0], 126.827f / 4, 0.02f);
+    EXPECT_NEAR(image.values()[1], 101.366f / 4, 0.02f);
+    EXPECT_NEAR(image.values()[2], 93.713f / 4, 0.02f);
 }
 
 TEST(RgbFilm, BadParametersAreErrors) {
@@ -165,7 +168,10 @@ TEST(RgbFilm, BadParametersAreErrors) {
     EXPECT_THAT(messages({crop({0.5f, 0.5f, 0, 1})}), ElementsAre(HasSubstr("holds no pixels")));
     EXPECT_THAT(messages(sized(10, 10, {bounds({5, 2, 0, 9})})),
                 testing::Contains(HasSubstr("holds no pixels")));
-    EXPECT_THAT(messages({make_string("sensor", "nikon")}), ElementsAre(HasSubstr("nikon")));
+    EXPECT_THAT(messages({make_string("sensor", "nikon_d85")}),
+                ElementsAre(HasSubstr("did you mean \"nikon_d850\"?")));
+    EXPECT_THAT(messages({make_string("sensor", "nikon_d850"), make_float("whitebalance", 100)}),
+                ElementsAre(HasSubstr("sees no colours")));
     EXPECT_THAT(messages({make_string("transfer", "gamma")}), ElementsAre(HasSubstr("known: srgb, linear")));
     EXPECT_THAT(messages({make_float("maxcomponentvalue", 0)}), testing::SizeIs(1));
 }
