@@ -22,23 +22,22 @@ struct EnumNames<Randomization> {
     static constexpr std::array names{"none", "permutedigits", "fastowen", "owen"};
 };
 
-/// A sampler with a number of samples per pixel.
+/// A sampler with a number of samples per pixel and a seed.
 struct CountedSampler : Sampler {
     int pixelsamples = 16;
     int seed = 0;
 
     int samples_per_pixel() const override { return pixelsamples; }
+    /// What every kind needs; those that need more do this first.
+    void prepare(Vec2i /*resolution*/, int samples_per_pixel, std::uint64_t seed_of_render) override {
+        pixelsamples = samples_per_pixel;
+        seed_ = full_seed(seed_of_render);
+    }
 
   protected:
     template <class T>
     static void describe_count(Fields<T>& f, std::string meaning = "samples taken in each pixel") {
         f.field("pixelsamples", &T::pixelsamples, std::move(meaning)).in(1, max_pixel_samples);
-    }
-    /// Of the kinds whose points come in powers of two. No warning says so when a scene is read, since the
-    /// number may yet be replaced.
-    template <class T>
-    static void describe_binary_count(Fields<T>& f) {
-        describe_count(f, "samples taken in each pixel; a power of two spreads them best");
     }
     template <class T>
     static void describe_seed(Fields<T>& f) {
@@ -48,6 +47,8 @@ struct CountedSampler : Sampler {
     std::uint64_t full_seed(std::uint64_t seed_of_render) const {
         return hash_of(static_cast<std::uint64_t>(static_cast<std::uint32_t>(seed)), seed_of_render);
     }
+
+    std::uint64_t seed_ = full_seed(0);
 };
 
 /// A pixel as one number.

@@ -163,8 +163,7 @@ class HaltonSampler final : public CountedSampler {
         return {scrambled(a, 0, column), scrambled(b, 1, row)};
     }
     void prepare(Vec2i resolution, int samples_per_pixel, std::uint64_t seed_of_render) override {
-        pixelsamples = samples_per_pixel;
-        seed_ = full_seed(seed_of_render);
+        CountedSampler::prepare(resolution, samples_per_pixel, seed_of_render);
         for (std::size_t i = 0; i < 2; ++i) {
             const std::uint32_t base = primes[i];
             int size = std::min(i == 0 ? resolution.x : resolution.y, largest_tile);
@@ -221,7 +220,6 @@ class HaltonSampler final : public CountedSampler {
     std::array<int, 2> exponents_{0, 0};
     std::array<std::uint64_t, 2> factors_{1, 1};
     DigitOrders orders_;
-    std::uint64_t seed_ = full_seed(0);
 };
 
 } // namespace

@@ -29,13 +29,6 @@ class IndependentSampler final : public CountedSampler {
         state.dimension += 2;
         return u;
     }
-    void prepare(Vec2i, int samples_per_pixel, std::uint64_t seed_of_render) override {
-        pixelsamples = samples_per_pixel;
-        seed_ = full_seed(seed_of_render);
-    }
-
-  private:
-    std::uint64_t seed_ = full_seed(0);
 };
 
 } // namespace

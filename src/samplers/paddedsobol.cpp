@@ -2,26 +2,19 @@
 /// sequence, randomized anew, with the samples in a shuffled order (Burley 2020, "Practical hash-based Owen
 /// scrambling"). The shuffle is an Owen scrambling of the sample's number, so that any first 2^k samples are
 /// spread evenly.
-#include "samplers/sobol_sequence.h"
+#include "samplers/randomized_sobol.h"
 
 namespace alhazen {
 
 namespace {
 
-class PaddedSobolSampler final : public CountedSampler {
+class PaddedSobolSampler final : public RandomizedSobol {
   public:
-    Randomization randomization = Randomization::fastowen;
-
     static void describe(Fields<PaddedSobolSampler>& f) {
         f.about("Every number and pair of numbers is spread evenly over the pixel's samples; pixels and "
                 "dimensions "
                 "are independent of each other.");
-        describe_binary_count(f);
-        f.field("randomization", &PaddedSobolSampler::randomization, "how the points are made random");
-        describe_seed(f);
-        f.example("none", {make_string("randomization", "none")});
-        f.example("permutedigits", {make_string("randomization", "permutedigits")});
-        f.example("owen", {make_string("randomization", "owen")});
+        describe_sobol(f);
     }
 
     SampleState start(Vec2i pixel, std::uint32_t sample) const override {
@@ -37,16 +30,11 @@ class PaddedSobolSampler final : public CountedSampler {
         state.dimension += 2;
         return sobol_pair(randomization, shuffled(state.sample, key), mix_bits(key));
     }
-    void prepare(Vec2i, int samples_per_pixel, std::uint64_t seed_of_render) override {
-        pixelsamples = samples_per_pixel;
-        seed_ = full_seed(seed_of_render);
-    }
 
   private:
     static std::uint32_t shuffled(std::uint32_t sample, std::uint64_t key) {
         return reverse_bits(hash_owen(reverse_bits(sample), static_cast<std::uint32_t>(key >> 32)));
     }
-    std::uint64_t seed_ = full_seed(0);
 };
 
 } // namespace

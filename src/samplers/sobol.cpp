@@ -2,7 +2,7 @@
 /// film, each pixel picking out the points that fall into it (Gruenschloss, Raab and Keller 2012,
 /// "Enumerating quasi-Monte Carlo point sequences in elementary intervals"). All dimensions are spread
 /// together.
-#include "samplers/sobol_sequence.h"
+#include "samplers/randomized_sobol.h"
 
 namespace alhazen {
 
@@ -69,20 +69,13 @@ class PixelIndex {
     std::vector<std::uint64_t> from_pixel_, from_frame_;
 };
 
-class SobolSampler final : public CountedSampler {
+class SobolSampler final : public RandomizedSobol {
   public:
-    Randomization randomization = Randomization::fastowen;
-
     static void describe(Fields<SobolSampler>& f) {
         f.about(
             "One sequence for the whole image, all dimensions of a path spread together. Dimensions beyond "
             "the 1024th are independent random numbers.");
-        describe_binary_count(f);
-        f.field("randomization", &SobolSampler::randomization, "how the points are made random");
-        describe_seed(f);
-        f.example("none", {make_string("randomization", "none")});
-        f.example("permutedigits", {make_string("randomization", "permutedigits")});
-        f.example("owen", {make_string("randomization", "owen")});
+        describe_sobol(f);
     }
 
     SampleState start(Vec2i pixel, std::uint32_t sample) const override {
@@ -106,8 +99,7 @@ class SobolSampler final : public CountedSampler {
                 randomized_float(randomization, y, static_cast<std::uint32_t>(row))};
     }
     void prepare(Vec2i resolution, int samples_per_pixel, std::uint64_t seed_of_render) override {
-        pixelsamples = samples_per_pixel;
-        seed_ = full_seed(seed_of_render);
+        CountedSampler::prepare(resolution, samples_per_pixel, seed_of_render);
         log2_size_ = std::min(log2_ceil(std::max({resolution.x, resolution.y, 1})), 16);
         pixels_ = PixelIndex(log2_size_);
     }
@@ -123,7 +115,6 @@ class SobolSampler final : public CountedSampler {
     const SobolMatrices& matrices_ = SobolMatrices::get();
     int log2_size_ = 0;
     PixelIndex pixels_{0};
-    std::uint64_t seed_ = full_seed(0);
 };
 
 } // namespace

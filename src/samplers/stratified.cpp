@@ -46,8 +46,8 @@ class StratifiedSampler final : public CountedSampler {
         };
         return {coordinate(cell % nx, offset.x, nx), coordinate(cell / nx, offset.y, ny)};
     }
-    void prepare(Vec2i, int samples_per_pixel, std::uint64_t seed_of_render) override {
-        seed_ = full_seed(seed_of_render);
+    void prepare(Vec2i resolution, int samples_per_pixel, std::uint64_t seed_of_render) override {
+        CountedSampler::prepare(resolution, samples_per_pixel, seed_of_render);
         if (samples_per_pixel == xsamples * ysamples) return;
         // Another count: the two factors nearest to its square root.
         ysamples = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(samples_per_pixel))));
@@ -68,8 +68,6 @@ class StratifiedSampler final : public CountedSampler {
         std::uint64_t key = sub_key(state.index, state.dimension + (std::uint64_t{state.sample / n} << 32));
         return {permuted_index(state.sample % n, n, key), sub_key(key, state.sample)};
     }
-
-    std::uint64_t seed_ = full_seed(0);
 };
 
 } // namespace

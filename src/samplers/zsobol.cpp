@@ -3,7 +3,7 @@
 /// sampling error via hierarchical ordering of pixels"). Any square of 2^k x 2^k pixels so shares an evenly
 /// spread run of points, and neighbours' errors differ: the image's noise is fine-grained and fades at a
 /// distance.
-#include "samplers/sobol_sequence.h"
+#include "samplers/randomized_sobol.h"
 
 namespace alhazen {
 
@@ -35,20 +35,13 @@ constexpr std::array<std::uint8_t, 24> make_orders() {
 }
 constexpr std::array<std::uint8_t, 24> orders_of_four = make_orders();
 
-class ZSobolSampler final : public CountedSampler {
+class ZSobolSampler final : public RandomizedSobol {
   public:
-    Randomization randomization = Randomization::fastowen;
-
     static void describe(Fields<ZSobolSampler>& f) {
         f.about("The default: evenly spread within each pixel and over neighbouring pixels together, so that "
                 "what "
                 "noise is left looks fine-grained.");
-        describe_binary_count(f);
-        f.field("randomization", &ZSobolSampler::randomization, "how the points are made random");
-        describe_seed(f);
-        f.example("none", {make_string("randomization", "none")});
-        f.example("permutedigits", {make_string("randomization", "permutedigits")});
-        f.example("owen", {make_string("randomization", "owen")});
+        describe_sobol(f);
     }
 
     SampleState start(Vec2i pixel, std::uint32_t sample) const override {
@@ -67,8 +60,7 @@ class ZSobolSampler final : public CountedSampler {
         return sobol_pair(randomization, shuffled(state.index, key), mix_bits(key));
     }
     void prepare(Vec2i resolution, int samples_per_pixel, std::uint64_t seed_of_render) override {
-        pixelsamples = samples_per_pixel;
-        seed_ = full_seed(seed_of_render);
+        CountedSampler::prepare(resolution, samples_per_pixel, seed_of_render);
         log2_samples_ = log2_ceil(samples_per_pixel);
         int levels = log2_ceil(std::max({resolution.x, resolution.y, 1}));
         end_ = std::min(2 * levels + log2_samples_, 60);
@@ -109,7 +101,6 @@ class ZSobolSampler final : public CountedSampler {
 
     int log2_samples_ = 4;
     int end_ = 4; ///< bits above this are 0 in every index
-    std::uint64_t seed_ = full_seed(0);
 };
 
 } // namespace
