@@ -1,7 +1,6 @@
 /// A light without size that shines into a cone, full in the middle and fading smoothly towards the rim
 /// (Pharr et al. 2023, section 12.2.1).
-#include "lights/light.h"
-#include "lights/light_parts.h"
+#include "lights/point_like.h"
 
 namespace alhazen {
 namespace {
@@ -13,21 +12,13 @@ float smooth_step(float x, float a, float b) {
     return t * t * (3 - 2 * t);
 }
 
-struct SpotLight final : Light {
-    IlluminantSpectrum I = white_light();
-    float scale = 1;
-    std::optional<float> power_target;
-    Vec3 from{0, 0, 0}, to{0, 0, 1};
+struct SpotLight final : PointLike {
+    Vec3 to{0, 0, 1};
     float coneangle = 30, conedeltaangle = 5;
 
     static void describe(Fields<SpotLight>& f) {
         f.about("Shines from one point into a cone.");
-        f.field("I", &SpotLight::I, "radiant intensity in the middle of the cone").unit("W/sr");
-        f.field("scale", &SpotLight::scale, "factor on the intensity").at_least(0);
-        f.field("power", &SpotLight::power_target,
-                "luminous flux; when positive, the intensity is scaled to give it")
-            .unit("lm");
-        f.field("from", &SpotLight::from, "where the light is").unit("scene units");
+        describe_point_like(f, "radiant intensity in the middle of the cone");
         f.field("to", &SpotLight::to, "a point in the middle of the cone").unit("scene units");
         f.field("coneangle", &SpotLight::coneangle, "from the middle of the cone to where the light ends")
             .in(0, 180)
@@ -54,32 +45,19 @@ struct SpotLight final : Light {
         float full = std::min(std::abs(coneangle - conedeltaangle), coneangle);
         cos_end_ = std::cos(radians(coneangle));
         cos_full_ = std::cos(radians(full));
-        float s = scale;
-        if (is_given(power_target)) s *= solid_angle() > 0 ? *power_target / solid_angle() : 0.0f;
-        intensity_ = calibrated(I.value, s, context.color_mode);
         world_from_light_ = context.world_from_node;
-        p_ = world_from_light_.point(from);
+        place(solid_angle(), context);
     }
 
     std::optional<LightSample> sample(const LightReceiver& at, Vec2,
                                       const Wavelengths& lambda) const override {
-        auto to_light = direction_between(at.p, p_);
-        if (!to_light) return std::nullopt;
-        Vec3 w = normalize(world_from_light_.inverse_vector(-to_light->w));
-        LightSample s;
-        s.L = intensity_.eval(lambda) *
-              (smooth_step(dot(w, axis_), cos_end_, cos_full_) / to_light->distance_squared);
-        if (s.L.is_black()) return std::nullopt;
-        s.wi = to_light->w;
-        s.pdf = 1;
-        s.p = p_;
-        return s;
+        return sample_point(at, lambda, [&](const Direction& to_light) {
+            Vec3 w = normalize(world_from_light_.inverse_vector(-to_light.w));
+            return smooth_step(dot(w, axis_), cos_end_, cos_full_) / to_light.distance_squared;
+        });
     }
-    bool is_delta() const override { return true; }
     std::optional<LightBounds> bounds() const override {
-        LightBounds b;
-        b.bounds = {p_, p_};
-        b.power = 4 * pi * brightness(intensity_);
+        LightBounds b = point_bounds();
         if (!keeps_angles(world_from_light_)) return b;
         b.axis = normalize(world_from_light_.vector(axis_));
         b.cos_normals = cos_full_;
@@ -87,18 +65,14 @@ struct SpotLight final : Light {
         b.cos_falloff = std::cos(std::min(std::acos(cos_end_) - std::acos(cos_full_) + 2e-3f, pi));
         return b;
     }
-    Spectrum power(const Wavelengths& lambda) const override {
-        return intensity_.eval(lambda) * solid_angle();
-    }
 
   private:
     /// Integral of the falloff over directions: the full cone, and half of the rim, about whose middle the
     /// cubic is point symmetric.
     float solid_angle() const { return 2 * pi * ((1 - cos_full_) + (cos_full_ - cos_end_) / 2); }
 
-    SpectrumValue intensity_;
     Transform world_from_light_;
-    Vec3 p_, axis_{0, 0, 1};
+    Vec3 axis_{0, 0, 1};
     float cos_full_ = 1, cos_end_ = 1;
 };
 
