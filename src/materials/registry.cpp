@@ -1,18 +1,4 @@
 #include "materials/material.h"
 
-namespace alhazen {
-
-#define KIND(name) Kind<Material> name##_material();
-#include "materials/list.h"
-#undef KIND
-
-const KindList<Material>& material_kinds() {
-    static const KindList<Material> kinds{
-#define KIND(name) name##_material(),
-#include "materials/list.h"
-#undef KIND
-    };
-    return kinds;
-}
-
-} // namespace alhazen
+#define KINDS Material, material, "materials/list.h"
+#include "describe/register_kinds.inl"

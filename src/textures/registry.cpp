@@ -1,29 +1,7 @@
 #include "textures/texture_set.h"
 
-namespace alhazen {
+#define KINDS FloatNode, float_texture, "textures/list.h"
+#include "describe/register_kinds.inl"
 
-#define KIND(name)                                                                                           \
-    Kind<FloatNode> name##_float_texture();                                                                  \
-    Kind<SpectrumNode> name##_spectrum_texture();
-#include "textures/list.h"
-#undef KIND
-
-const KindList<FloatNode>& float_texture_kinds() {
-    static const KindList<FloatNode> kinds{
-#define KIND(name) name##_float_texture(),
-#include "textures/list.h"
-#undef KIND
-    };
-    return kinds;
-}
-
-const KindList<SpectrumNode>& spectrum_texture_kinds() {
-    static const KindList<SpectrumNode> kinds{
-#define KIND(name) name##_spectrum_texture(),
-#include "textures/list.h"
-#undef KIND
-    };
-    return kinds;
-}
-
-} // namespace alhazen
+#define KINDS SpectrumNode, spectrum_texture, "textures/list.h"
+#include "describe/register_kinds.inl"
