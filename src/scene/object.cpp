@@ -19,15 +19,6 @@ Ray ray_into(const PlacedObject& instance, const Ray& ray, float& shift) {
     return local;
 }
 
-std::vector<Bounds3> bounds_of(const std::vector<PlacedShape>& shapes,
-                               const std::vector<PlacedObject>& instances) {
-    std::vector<Bounds3> bounds;
-    for (const PlacedShape& s : shapes)
-        for (std::uint32_t i = 0; i < s.shape->primitive_count(); ++i) bounds.push_back(s.shape->bounds(i));
-    for (const PlacedObject& o : instances) bounds.push_back(o.world_from_object.bounds(o.object->bounds()));
-    return bounds;
-}
-
 // The hit seen from outside the instance.
 void transform_hit(const Transform& t, Hit& hit) {
     hit.p_error = t.point_error(hit.p, hit.p_error);
@@ -41,9 +32,8 @@ void transform_hit(const Transform& t, Hit& hit) {
 
 } // namespace
 
-Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instances)
-    : shapes_(std::move(shapes)), instances_(std::move(instances)), bvh_(bounds_of(shapes_, instances_)) {
-    primitives_.reserve(bvh_.primitive_count());
+Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instances, const AccelChoice& accel)
+    : shapes_(std::move(shapes)), instances_(std::move(instances)) {
     for (const PlacedObject& instance : instances_)
         height_ = std::max(height_, instance.object->height() + 1);
     for (const PlacedShape& placed : shapes_) {
@@ -52,18 +42,35 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
                            alpha.is_constant() && alpha.constant() >= 1,
                            placed.material && placed.material->is_interface()});
     }
-    has_triangles_ = std::any_of(leaves_.begin(), leaves_.end(), [](const Leaf& l) { return l.mesh; });
     for (std::uint32_t s = 0; s < shapes_.size(); ++s)
         for (std::uint32_t i = 0; i < shapes_[s].shape->primitive_count(); ++i) primitives_.push_back({s, i});
     for (std::uint32_t i = 0; i < instances_.size(); ++i) primitives_.push_back({instance_mark, i});
+    structure_ = make_structure(*this, accel);
 }
 
-bool Object::meets(const Ray& ray, const PreparedRay& prepared, const Primitive& primitive,
-                   Intersection& hit) const {
-    const Leaf& leaf = leaves_[primitive.shape];
-    bool met = leaf.mesh ? leaf.mesh->intersect_with(ray, *prepared.shear, primitive.primitive, hit)
-                         : leaf.shape->intersect(ray, primitive.primitive, hit);
-    return met && (leaf.is_solid || alpha_passes(ray, primitive, hit));
+PrimitiveKind Object::kind(std::uint32_t primitive) const {
+    const Primitive& p = primitives_[primitive];
+    if (p.shape == instance_mark || !leaves_[p.shape].mesh) return PrimitiveKind::custom;
+    const Leaf& leaf = leaves_[p.shape];
+    return leaf.is_solid && !leaf.is_interface ? PrimitiveKind::triangle : PrimitiveKind::filtered_triangle;
+}
+
+Bounds3 Object::bounds(std::uint32_t primitive) const {
+    const Primitive& p = primitives_[primitive];
+    if (p.shape != instance_mark) return shapes_[p.shape].shape->bounds(p.primitive);
+    const PlacedObject& instance = instances_[p.primitive];
+    if (instance.object->bounds().empty()) return {};
+    Bounds3 box = instance.world_from_object.bounds(instance.object->bounds());
+    // Rays are transformed into the instance with a few roundings of their coordinates there, which seen from
+    // here are a few of the box's.
+    Vec3 pad = (max(abs(box.lo), abs(box.hi)) + box.diagonal()) * (16 * 0x1p-24f);
+    return {box.lo - pad, box.hi + pad};
+}
+
+Corners Object::corners(std::uint32_t primitive) const {
+    const Primitive& p = primitives_[primitive];
+    auto [a, b, c] = leaves_[p.shape].mesh->vertices(p.primitive);
+    return {a, b, c};
 }
 
 // Chance decides between solid and absent, by a hash of the ray: the same ray always sees the same surface.
@@ -79,31 +86,91 @@ bool Object::alpha_passes(const Ray& ray, const Primitive& primitive, const Inte
     return unit_float(h) < alpha;
 }
 
+/// Instances are searched from within the search outside: what is met there becomes the ray's find.
+class Object::ClosestTests final : public PrimitiveTests {
+  public:
+    ClosestTests(const Object& object, std::span<Found> found, std::size_t depth)
+        : object_(object), found_(found), depth_(depth) {}
+
+    bool intersect(const Question& q, Intersection& hit) override {
+        const Primitive& primitive = object_.primitives_[q.primitive];
+        if (primitive.shape == instance_mark) return enter(q, object_.instances_[primitive.primitive], hit);
+        const Leaf& leaf = object_.leaves_[primitive.shape];
+        return leaf.shape->intersect(q.ray, primitive.primitive, hit) &&
+               (leaf.is_solid || object_.alpha_passes(q.ray, primitive, hit));
+    }
+    bool accept(const Question& q, const Intersection& hit) override {
+        const Primitive& primitive = object_.primitives_[q.primitive];
+        return object_.leaves_[primitive.shape].is_solid || object_.alpha_passes(q.ray, primitive, hit);
+    }
+
+  private:
+    bool enter(const Question& q, const PlacedObject& instance, Intersection& hit) {
+        Found& found = found_[q.ray_index];
+        float shift = 0;
+        Ray local = ray_into(instance, q.ray, shift);
+        Found inner;
+        inner.instances = found.instances;
+        inner.instances[depth_] = &instance;
+        instance.object->closest_nested(local, inner, depth_ + 1);
+        hit.t = inner.hit.t + shift;
+        if (!inner.object || !q.would_win(hit.t)) return false;
+        found = inner;
+        return true;
+    }
+
+    const Object& object_;
+    std::span<Found> found_;
+    std::size_t depth_;
+};
+
+class Object::AnyTests final : public PrimitiveTests {
+  public:
+    explicit AnyTests(const Object& object) : object_(object) {}
+
+    bool intersect(const Question& q, Intersection& hit) override {
+        const Primitive& primitive = object_.primitives_[q.primitive];
+        if (primitive.shape == instance_mark) {
+            const PlacedObject& instance = object_.instances_[primitive.primitive];
+            float shift = 0;
+            hit.t = 0;
+            return instance.object->any(ray_into(instance, q.ray, shift));
+        }
+        const Leaf& leaf = object_.leaves_[primitive.shape];
+        return !leaf.is_interface && leaf.shape->intersect(q.ray, primitive.primitive, hit) &&
+               (leaf.is_solid || object_.alpha_passes(q.ray, primitive, hit));
+    }
+    bool accept(const Question& q, const Intersection& hit) override {
+        const Primitive& primitive = object_.primitives_[q.primitive];
+        const Leaf& leaf = object_.leaves_[primitive.shape];
+        return !leaf.is_interface && (leaf.is_solid || object_.alpha_passes(q.ray, primitive, hit));
+    }
+
+  private:
+    const Object& object_;
+};
+
 void Object::closest(const Ray& ray, Found& found) const {
     closest_nested(ray, found, 0);
 }
 
 void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth) const {
-    const PreparedRay prepared(ray, has_triangles_);
+    ClosestTests tests(*this, {&found, 1}, depth);
     Intersection nearest;
-    bvh_.closest(ray, nearest, [&](std::uint32_t index, const Ray& r, Intersection& hit) {
-        const Primitive& primitive = primitives_[index];
-        if (primitive.shape != instance_mark) return meets(r, prepared, primitive, hit);
-        const PlacedObject& instance = instances_[primitive.primitive];
-        float shift = 0;
-        Ray local = ray_into(instance, r, shift);
-        Found inner;
-        inner.instances = found.instances;
-        inner.instances[depth] = &instance;
-        instance.object->closest_nested(local, inner, depth + 1);
-        hit.t = inner.hit.t + shift;
-        // Of hits at the same distance the first primitive counts, as in the walk, so that found follows it.
-        if (!inner.object || hit.t > nearest.t || (hit.t == nearest.t && index > nearest.primitive))
-            return false;
-        found = inner;
-        return true;
-    });
-    if (!nearest.found() || primitives_[nearest.primitive].shape == instance_mark) return;
+    if (structure_->closest(ray, nearest, tests)) settle(ray, nearest, depth, found);
+}
+
+void Object::closest(std::span<const Ray> rays, std::span<Found> found) const {
+    ClosestTests tests(*this, found, 0);
+    std::vector<Intersection> nearest(rays.size());
+    structure_->closest(rays, nearest, tests);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (nearest[i].found()) settle(rays[i], nearest[i], 0, found[i]);
+}
+
+// An instance's test has filled found already.
+void Object::settle(const Ray& ray, const Intersection& nearest, std::size_t depth, Found& found) const {
+    if (primitives_[nearest.primitive].shape == instance_mark) return;
     found.hit = nearest;
     found.object = this;
     found.depth = depth;
@@ -111,17 +178,13 @@ void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth) con
 }
 
 bool Object::any(const Ray& ray) const {
-    const PreparedRay prepared(ray, has_triangles_);
-    return bvh_.any(ray, [&](std::uint32_t index, const Ray& r, Intersection& hit) {
-        const Primitive& primitive = primitives_[index];
-        if (primitive.shape == instance_mark) {
-            const PlacedObject& instance = instances_[primitive.primitive];
-            float shift = 0;
-            hit.t = 0;
-            return instance.object->any(ray_into(instance, r, shift));
-        }
-        return !leaves_[primitive.shape].is_interface && meets(r, prepared, primitive, hit);
-    });
+    AnyTests tests(*this);
+    return structure_->any(ray, tests);
+}
+
+void Object::any(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+    AnyTests tests(*this);
+    structure_->any(rays, blocked, tests);
 }
 
 Hit Object::surface(const Found& found) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "accel/bvh.h"
+#include "accel/accel.h"
 #include "materials/material.h"
 #include "shapes/shape.h"
 #include "shapes/triangle_mesh.h"
@@ -40,60 +40,61 @@ struct Found {
     Ray ray; ///< in the object's space
 };
 
-class Object {
+class Object final : public Primitives {
   public:
-    /// Shapes may be empty; instances refer to finished objects.
-    Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instances);
+    /// Shapes may be empty; instances refer to finished objects, which must outlive this one.
+    Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instances,
+           const AccelChoice& accel = {});
 
     /// Updates found when something nearer than ray.tmax is met.
     void closest(const Ray& ray, Found& found) const;
     /// True when something stands before ray.tmax; borders of media do not count.
     bool any(const Ray& ray) const;
+    /// The same for many rays at once: found as constructed, blocked set to 0 or 1.
+    void closest(std::span<const Ray> rays, std::span<Found> found) const;
+    void any(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
     /// The full hit, in world space.
     static Hit surface(const Found& found);
 
-    Bounds3 bounds() const { return bvh_.bounds(); }
+    const Bounds3& bounds() const { return structure_->bounds(); }
     const std::vector<PlacedShape>& shapes() const { return shapes_; }
     const std::vector<PlacedObject>& instances() const { return instances_; }
-    const Bvh& bvh() const { return bvh_; }
+    const Structure& structure() const { return *structure_; }
     std::size_t primitive_count() const { return primitives_.size(); }
     /// How deep instances are nested to get out of the innermost: 1 without instances.
     std::size_t height() const { return height_; }
 
+    std::uint32_t count() const override { return static_cast<std::uint32_t>(primitives_.size()); }
+    PrimitiveKind kind(std::uint32_t primitive) const override;
+    Bounds3 bounds(std::uint32_t primitive) const override;
+    Corners corners(std::uint32_t primitive) const override;
+
   private:
+    class ClosestTests;
+    class AnyTests;
+
     /// A primitive of a shape, or an instance (shape = instance_mark, primitive = its index).
     struct Primitive {
         std::uint32_t shape, primitive;
     };
     static constexpr std::uint32_t instance_mark = 0xffffffffu;
-    /// What the leaf test needs of a shape, in one place.
+    /// What the tests need to know of a shape, in one place.
     struct Leaf {
         const Shape* shape;
-        const TriangleMesh* mesh; ///< tested without a virtual call
+        const TriangleMesh* mesh; ///< when the primitives are triangles
         bool is_solid, is_interface;
-    };
-
-    /// What is computed once a ray for the tests of its leaves.
-    struct PreparedRay {
-        std::optional<RayShear> shear; ///< where there are triangles
-
-        PreparedRay(const Ray& ray, bool has_triangles) {
-            if (has_triangles) shear.emplace(ray);
-        }
     };
 
     /// found.instances holds the first depth ones already.
     void closest_nested(const Ray& ray, Found& found, std::size_t depth) const;
-    bool meets(const Ray& ray, const PreparedRay& prepared, const Primitive& primitive,
-               Intersection& hit) const;
+    void settle(const Ray& ray, const Intersection& nearest, std::size_t depth, Found& found) const;
     bool alpha_passes(const Ray& ray, const Primitive& primitive, const Intersection& hit) const;
 
     std::vector<PlacedShape> shapes_;
     std::vector<PlacedObject> instances_;
     std::vector<Leaf> leaves_; ///< one a shape
     std::vector<Primitive> primitives_;
-    bool has_triangles_ = false;
-    Bvh bvh_;
+    std::unique_ptr<Structure> structure_;
     std::size_t height_ = 1;
 };
 

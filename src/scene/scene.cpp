@@ -34,7 +34,7 @@ SceneCounts Scene::counts() const {
     for (const auto& object : objects_) {
         counts.shapes += object->shapes().size();
         counts.instances += object->instances().size();
-        counts.accel_bytes += object->bvh().bytes();
+        counts.accel_bytes += object->structure().stats().bytes;
         for (const PlacedShape& placed : object->shapes()) {
             counts.shape_bytes += placed.shape->bytes();
             counts.primitives += placed.shape->primitive_count();

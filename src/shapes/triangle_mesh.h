@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
+#include "accel/triangle.h"
 #include "shapes/mesh_arrays.h"
 #include "shapes/shape.h"
-#include "shapes/triangle.h"
 
 namespace alhazen {
 

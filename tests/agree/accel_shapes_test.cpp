@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "accel/bvh.h"
+#include "accel/accel.h"
 #include "tests/conformance/shape_cases.h"
 
 namespace alhazen {
@@ -10,7 +10,7 @@ namespace {
 
 using namespace shape_cases;
 
-struct Mix {
+struct Mix final : Primitives {
     struct Item {
         const Shape* shape;
         std::uint32_t primitive;
@@ -18,11 +18,25 @@ struct Mix {
     std::vector<std::unique_ptr<Shape>> shapes;
     std::vector<Item> items;
     std::vector<Bounds3> boxes;
-    Bounds3 bounds;
+    Bounds3 whole;
+
+    std::uint32_t count() const override { return static_cast<std::uint32_t>(items.size()); }
+    PrimitiveKind kind(std::uint32_t) const override { return PrimitiveKind::custom; }
+    Bounds3 bounds(std::uint32_t i) const override { return boxes[i]; }
+    Corners corners(std::uint32_t) const override { return {}; }
 
     bool test(std::uint32_t i, const Ray& ray, Intersection& hit) const {
         return items[i].shape->intersect(ray, items[i].primitive, hit);
     }
+};
+
+struct MixTests final : PrimitiveTests {
+    const Mix& mix;
+    explicit MixTests(const Mix& m) : mix(m) {}
+    bool intersect(const Question& q, Intersection& hit) override {
+        return mix.test(q.primitive, q.ray, hit);
+    }
+    bool accept(const Question&, const Intersection&) override { return true; }
 };
 
 // Every example of every kind, scattered; each stands there twice, so that ties abound.
@@ -44,7 +58,7 @@ Mix scatter(double scale, std::uint64_t seed) {
         for (std::uint32_t k = 0; k < shape->primitive_count(); ++k) {
             mix.items.push_back({shape.get(), k});
             mix.boxes.push_back(shape->bounds(k));
-            mix.bounds.extend(mix.boxes.back());
+            mix.whole.extend(mix.boxes.back());
         }
     return mix;
 }
@@ -52,15 +66,18 @@ Mix scatter(double scale, std::uint64_t seed) {
 TEST(AccelAgreement, AllShapesAtAllScales) {
     for (double scale : {1e-6, 1.0, 1e6}) {
         Mix mix = scatter(scale, 1);
-        Bvh bvh(mix.boxes);
-        Sphere3 ball = bounding_sphere(mix.bounds);
+        MixTests tests(mix);
+        std::vector<std::unique_ptr<Structure>> structures;
+        for (const AccelWalk& walk : accel_walks())
+            structures.push_back(make_structure(mix, {"sah", std::string(walk.name), {}}));
+        Sphere3 ball = bounding_sphere(mix.whole);
         Rng rng(2);
         int hits = 0;
         for (int i = 0; i < 10000; ++i) {
             Ray ray = random_line(ball, rng);
             if (i % 3 == 0) ray.d = ray.d * 1e3f;
             if (i % 5 == 0) ray.tmax = 2 * rng.uniform() * ball.radius;
-            Intersection expected, hit;
+            Intersection expected;
             Ray rest = ray;
             for (std::uint32_t k = 0; k < mix.items.size(); ++k) {
                 Intersection candidate;
@@ -69,14 +86,14 @@ TEST(AccelAgreement, AllShapesAtAllScales) {
                 expected.primitive = k;
                 rest.tmax = candidate.t;
             }
-            auto leaf = [&](std::uint32_t k, const Ray& r, Intersection& candidate) {
-                return mix.test(k, r, candidate);
-            };
-            ASSERT_EQ(bvh.closest(ray, hit, leaf), expected.found()) << scale << " ray " << i;
-            ASSERT_EQ(hit.primitive, expected.primitive) << scale << " ray " << i;
-            ASSERT_EQ(hit.t, expected.t);
-            ASSERT_EQ(bvh.any(ray, leaf), expected.found());
-            hits += hit.found();
+            for (const auto& structure : structures) {
+                Intersection found;
+                ASSERT_EQ(structure->closest(ray, found, tests), expected.found()) << scale << " ray " << i;
+                ASSERT_EQ(found.primitive, expected.primitive) << scale << " ray " << i;
+                ASSERT_EQ(found.t, expected.t);
+                ASSERT_EQ(structure->any(ray, tests), expected.found());
+            }
+            hits += expected.found();
         }
         EXPECT_GT(hits, 1000);
     }

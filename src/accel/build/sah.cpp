@@ -1,4 +1,10 @@
-#include "accel/build/sah.h"
+/// Builds trees by the surface area heuristic over bins.
+///
+/// Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies": the centroids of a node's
+/// primitives are counted into a few bins along each axis; of the planes between bins the one is taken that
+/// makes (area of the left box x primitives in it) + (the same on the right) least, since a random ray that
+/// meets the node meets a child with probability proportional to the child's area.
+#include "accel/list.h"
 
 #include <algorithm>
 #include <array>
@@ -153,11 +159,11 @@ Split best_split_of_axis(const Bins& bins, int axis) {
 
 class SahBuilder {
   public:
-    SahBuilder(std::span<const Bounds3> boxes, const SahOptions& options) : options_(options) {
+    SahBuilder(std::span<const Bounds3> boxes, const BuildOptions& options) : options_(options) {
         references_.reserve(boxes.size());
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             const Bounds3& b = boxes[i];
-            if (!is_finite(b.lo) || !is_finite(b.hi) || b.empty()) continue;
+            if (b.empty()) continue;
             float number = std::bit_cast<float>(static_cast<std::uint32_t>(i));
             references_.push_back({to_lanes(b.lo, number), to_lanes(b.hi)});
         }
@@ -257,15 +263,19 @@ class SahBuilder {
     }
     static bool is_used(const Tree::Node& n) { return n.count > 0 || n.first_or_right > 0; }
 
-    SahOptions options_;
+    BuildOptions options_;
     std::vector<Reference> references_;
     std::vector<Tree::Node> nodes_;
 };
 
+Tree build(const Primitives&, std::span<const Bounds3> boxes, const BuildOptions& options) {
+    return SahBuilder(boxes, options).build();
+}
+
 } // namespace
 
-Tree build_sah(std::span<const Bounds3> boxes, const SahOptions& options) {
-    return SahBuilder(boxes, options).build();
+AccelBuilder sah_builder() {
+    return {"sah", "surface area heuristic over bins (Wald 2007)", build};
 }
 
 } // namespace alhazen

@@ -2,9 +2,9 @@
 
 namespace alhazen {
 
-BinaryLayout::BinaryLayout(Tree tree) : order(std::move(tree.order)) {
+BinaryLayout::BinaryLayout(const Tree& tree) {
     if (tree.nodes.empty()) return;
-    bounds = tree.nodes[0].bounds;
+    depth = stats_of(tree).depth;
     // Leaves live in their parents, so only inner nodes are numbered.
     std::vector<std::uint32_t> place(tree.nodes.size());
     std::uint32_t inner = 0;

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "accel/build/tree.h"
+#include "accel/structure.h"
 
 namespace alhazen {
 
@@ -29,14 +29,13 @@ struct alignas(64) BinaryNode {
 static_assert(sizeof(BinaryNode) == 64);
 
 struct BinaryLayout {
-    std::vector<BinaryNode> nodes;    ///< depth first
-    std::vector<std::uint32_t> order; ///< as in Tree
-    BinaryChild root;                 ///< a leaf when there is one leaf only
-    Bounds3 bounds;
+    std::vector<BinaryNode> nodes; ///< depth first
+    BinaryChild root;              ///< a leaf when there is one leaf only
+    int depth = 0;
 
     BinaryLayout() = default;
-    explicit BinaryLayout(Tree tree);
-    std::size_t bytes() const { return nodes.size() * sizeof(BinaryNode) + order.size() * sizeof(order[0]); }
+    explicit BinaryLayout(const Tree& tree);
+    LayoutStats stats() const { return {nodes.size(), depth, nodes.size() * sizeof(BinaryNode)}; }
 };
 
 } // namespace alhazen

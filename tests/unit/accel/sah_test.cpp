@@ -4,12 +4,17 @@
 
 #include <cstring>
 
+#include "accel/layout/binary.h"
 #include "tests/unit/accel/support.h"
 
 namespace alhazen {
 namespace {
 
 using namespace accel_test;
+
+Tree build_sah(const std::vector<Bounds3>& boxes, const BuildOptions& options = {}) {
+    return sah_builder().build(Triangles{}, boxes, options);
+}
 
 // Every primitive in one leaf, every box inside its parent's, and no path longer than promised. Returns the
 // depth.
@@ -120,14 +125,59 @@ TEST(Binary, NodesHoldTheirChildren) {
     auto boxes = random_triangles(1000, 1, 0.1f, 6).boxes();
     Tree tree = build_sah(boxes);
     BinaryLayout layout(tree);
-    std::size_t leaves = 0;
-    for (const Tree::Node& n : tree.nodes) leaves += n.is_leaf();
-    EXPECT_EQ(layout.nodes.size(), leaves - 1);
-    EXPECT_EQ(layout.bounds.lo, tree.nodes[0].bounds.lo);
-    EXPECT_EQ(layout.bytes(), layout.nodes.size() * 64 + 4 * boxes.size());
+    TreeStats stats = stats_of(tree);
+    EXPECT_EQ(layout.nodes.size(), stats.leaves - 1);
+    EXPECT_EQ(layout.stats().bytes, layout.nodes.size() * 64);
+    EXPECT_EQ(layout.depth, stats.depth);
     std::size_t referred = layout.root.count;
     for (const BinaryNode& n : layout.nodes) referred += n.count[0] + n.count[1];
     EXPECT_EQ(referred, boxes.size());
+}
+
+TEST(TreeStats, OfATreeByHand) {
+    // Two unit cubes with a gap of one between them: root 3 x 1 x 1 (half area 7), children 3 each.
+    Triangles none;
+    std::vector<Bounds3> boxes{{{0, 0, 0}, {1, 1, 1}}, {{2, 0, 0}, {3, 1, 1}}};
+    Tree tree = build_sah(boxes, {.leaf_size = 1});
+    TreeStats stats = stats_of(tree, 2.0f);
+    EXPECT_EQ(stats.nodes, 3u);
+    EXPECT_EQ(stats.leaves, 2u);
+    EXPECT_EQ(stats.references, 2u);
+    EXPECT_EQ(stats.depth, 1);
+    EXPECT_NEAR(stats.sah_cost, (2 * 7 + 3 + 3) / 7.0, 1e-6);
+}
+
+TEST(TreeStats, EndPointOverlapCountsSurfaceOfOthers) {
+    // Two unit squares in the plane z = 0, the second half inside the first's box: of the points on both, the
+    // overlapping half of each lies in the other's leaf; inner nodes hold everything.
+    Triangles t({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{5, 5, 0}, {6, 5, 0}, {5, 6, 0}}});
+    Tree tree = build_sah(t.boxes(), {.leaf_size = 1});
+    EXPECT_EQ(end_point_overlap(tree, t), 0);
+    // The same triangle twice: every point lies in the other's leaf, which holds one primitive.
+    t.list[1] = t.list[0];
+    tree = build_sah(t.boxes(), {.leaf_size = 1});
+    EXPECT_NEAR(end_point_overlap(tree, t), 1, 1e-9);
+}
+
+TEST(Refit, BoxesFollowThePrimitives) {
+    Triangles t = random_triangles(2000, 1, 0.1f, 8);
+    Tree tree = build_sah(t.boxes());
+    for (Corners& c : t.list)
+        for (Vec3* p : {&c.a, &c.b, &c.c}) *p = Vec3{p->y, p->x * 2, p->z + 1};
+    refit(tree, t.boxes());
+    check_tree(tree, t.boxes(), 2000);
+    for (const AccelWalk& walk : accel_walks()) {
+        auto structure = walk.make(t, tree, {});
+        NoTests tests;
+        Rng rng(9);
+        for (int i = 0; i < 500; ++i) {
+            Ray ray = random_ray(t, 1, rng);
+            Intersection hit, expected = t.brute_force(ray);
+            structure->closest(ray, hit, tests);
+            ASSERT_EQ(hit.primitive, expected.primitive) << walk.name;
+            ASSERT_EQ(hit.t, expected.t) << walk.name;
+        }
+    }
 }
 
 } // namespace

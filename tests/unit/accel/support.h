@@ -3,9 +3,10 @@
 
 #include <vector>
 
-#include "accel/bvh.h"
+#include "accel/accel.h"
+#include "accel/box_ray.h"
+#include "accel/triangle.h"
 #include "base/hash.h"
-#include "shapes/triangle.h"
 
 namespace alhazen::accel_test {
 
@@ -13,37 +14,60 @@ inline Vec3 random_point(Rng& rng, float scale) {
     return Vec3{rng.uniform() - 0.5f, rng.uniform() - 0.5f, rng.uniform() - 0.5f} * (2 * scale);
 }
 
-struct Triangle {
-    Vec3 a, b, c;
-};
+/// Triangles, some of which may be custom (tested through PrimitiveTests) or filtered (only some hits count).
+struct Triangles final : Primitives {
+    std::vector<Corners> list;
+    std::vector<PrimitiveKind> kinds; ///< empty: all are plain triangles
 
-struct Triangles {
-    std::vector<Triangle> list;
+    Triangles() = default;
+    explicit Triangles(std::vector<Corners> corners) : list(std::move(corners)) {}
 
-    std::vector<Bounds3> boxes() const {
-        std::vector<Bounds3> boxes(list.size());
-        for (std::size_t i = 0; i < list.size(); ++i)
-            for (Vec3 p : {list[i].a, list[i].b, list[i].c}) boxes[i].extend(p);
-        return boxes;
+    std::uint32_t count() const override { return static_cast<std::uint32_t>(list.size()); }
+    PrimitiveKind kind(std::uint32_t i) const override {
+        return kinds.empty() ? PrimitiveKind::triangle : kinds[i];
     }
-    auto leaf(const Ray& ray) const {
-        return [this, shear = RayShear(ray)](std::uint32_t i, const Ray& r, Intersection& hit) {
-            return intersect_triangle(r, shear, list[i].a, list[i].b, list[i].c, hit);
-        };
+    Bounds3 bounds(std::uint32_t i) const override {
+        Bounds3 box;
+        for (Vec3 p : {list[i].a, list[i].b, list[i].c}) box.extend(p);
+        return box;
     }
+    Corners corners(std::uint32_t i) const override { return list[i]; }
+
+    std::vector<Bounds3> boxes() const { return padded_boxes(*this); }
+
+    bool meets(const Ray& ray, std::uint32_t i, Intersection& hit) const {
+        return intersect_triangle(ray, RayShear(ray), list[i].a, list[i].b, list[i].c, hit);
+    }
+    /// Filtered triangles are there where u > v.
+    static bool counts(const Intersection& hit) { return hit.u > hit.v; }
+
     /// The nearest hit, of equally near ones the first.
     Intersection brute_force(Ray ray) const {
         Intersection best;
-        auto test = leaf(ray);
         for (std::uint32_t i = 0; i < list.size(); ++i) {
             Intersection candidate;
-            if (!test(i, ray, candidate)) continue;
+            if (!meets(ray, i, candidate)) continue;
+            if (kind(i) == PrimitiveKind::filtered_triangle && !counts(candidate)) continue;
             best = candidate;
             best.primitive = i;
             ray.tmax = best.t;
         }
         return best;
     }
+    void add(const Triangles& more) { list.insert(list.end(), more.list.begin(), more.list.end()); }
+};
+
+/// The tests of Triangles' custom and filtered primitives.
+struct TriangleTests final : PrimitiveTests {
+    const Triangles& triangles;
+    std::size_t calls = 0;
+
+    explicit TriangleTests(const Triangles& t) : triangles(t) {}
+    bool intersect(const Question& q, Intersection& hit) override {
+        ++calls;
+        return triangles.meets(q.ray, q.primitive, hit);
+    }
+    bool accept(const Question&, const Intersection& hit) override { return Triangles::counts(hit); }
 };
 
 inline Triangles random_triangles(std::size_t count, float scale, float size, std::uint64_t seed) {
@@ -60,7 +84,7 @@ inline Triangles random_triangles(std::size_t count, float scale, float size, st
 /// Rays of every kind: arbitrary ones, ones aimed at vertices and at points of edges, and axis-parallel ones,
 /// some from vertices.
 inline Ray random_ray(const Triangles& triangles, float scale, Rng& rng) {
-    const Triangle& t = triangles.list[rng.below(static_cast<std::uint32_t>(triangles.list.size()))];
+    const Corners& t = triangles.list[rng.below(static_cast<std::uint32_t>(triangles.list.size()))];
     Vec3 o = random_point(rng, 2 * scale);
     switch (rng.below(5)) {
     case 0:
@@ -76,6 +100,15 @@ inline Ray random_ray(const Triangles& triangles, float scale, Rng& rng) {
         return {through - d * (rng.below(2) ? 4 * scale : 0.0f), d};
     }
     }
+}
+
+/// All pairs "builder/walk".
+inline std::vector<AccelChoice> all_choices() {
+    std::vector<AccelChoice> all;
+    for (const AccelBuilder& b : accel_builders())
+        for (const AccelWalk& w : accel_walks())
+            all.push_back({std::string(b.name), std::string(w.name), {}});
+    return all;
 }
 
 } // namespace alhazen::accel_test

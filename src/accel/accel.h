@@ -1,0 +1,29 @@
+/// The way from primitives to a structure: a builder and a walk chosen by name.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "accel/list.h"
+
+namespace alhazen {
+
+/// A pair, written "builder/walk". A builder may be followed by "+reinsertion": its tree is improved
+/// afterwards.
+struct AccelChoice {
+    std::string builder = "sah";
+    std::string walk = "stack";
+    WalkOptions walk_options;
+
+    std::string name() const { return builder + "/" + walk; }
+};
+
+/// Reads "builder/walk", "builder" or "/walk". On error returns nullopt and sets error: what is unknown, and
+/// what there is.
+std::optional<AccelChoice> parse_accel(std::string_view text, std::string& error);
+
+/// The tree and the structure for a choice of known names.
+Tree build_tree(const Primitives& primitives, const AccelChoice& choice);
+std::unique_ptr<Structure> make_structure(const Primitives& primitives, const AccelChoice& choice = {});
+
+} // namespace alhazen

@@ -1,0 +1,19 @@
+#include "accel/list.h"
+
+namespace alhazen {
+
+std::span<const AccelBuilder> accel_builders() {
+    static const AccelBuilder all[] = {
+        sah_builder(),
+    };
+    return all;
+}
+
+std::span<const AccelWalk> accel_walks() {
+    static const AccelWalk all[] = {
+        stack_walk(),
+    };
+    return all;
+}
+
+} // namespace alhazen
