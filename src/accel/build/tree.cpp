@@ -77,7 +77,7 @@ class SurfaceSampler {
 
 } // namespace
 
-TreeStats stats_of(const Tree& tree, float node_cost) {
+TreeStats stats_of(const Tree& tree, float node_cost, std::uint32_t block) {
     TreeStats stats;
     stats.nodes = tree.nodes.size();
     stats.references = tree.order.size();
@@ -87,7 +87,8 @@ TreeStats stats_of(const Tree& tree, float node_cost) {
         stats.depth = std::max(stats.depth, depth);
         stats.leaves += n.is_leaf();
         double area = static_cast<double>(n.bounds.half_area());
-        cost += area * (n.is_leaf() ? static_cast<double>(n.count) : static_cast<double>(node_cost));
+        std::uint32_t tests = (n.count + block - 1) / block;
+        cost += area * (n.is_leaf() ? static_cast<double>(tests) : static_cast<double>(node_cost));
     });
     if (!tree.nodes.empty()) {
         double root = static_cast<double>(tree.nodes[0].bounds.half_area());

@@ -37,6 +37,10 @@ struct BuildOptions {
     float node_cost = 1.0f;
     /// A node with so many primitives or fewer may become a leaf (1 ... Tree::max_leaf_size).
     std::uint32_t leaf_size = 4;
+    /// Primitives that the walk tests at once: a leaf of n costs ceil(n / block) tests.
+    std::uint32_t block = 1;
+    /// References that spatial splits may add, as a fraction of the primitives (>= 0).
+    float extra_references = 0.3f;
 };
 
 /// Figures by which trees are compared.
@@ -46,11 +50,11 @@ struct TreeStats {
     std::size_t references = 0; ///< places in the order; more than primitives where some were split
     int depth = 0;              ///< edges from the root to the deepest leaf
     /// Expected cost of a random ray that meets the root's box, in tests of primitives: the sum over inner
-    /// nodes of (node cost) x area + over leaves of count x area, over the root's area (MacDonald and Booth
-    /// 1990).
+    /// nodes of (node cost) x area + over leaves of ceil(count / block) x area, over the root's area
+    /// (MacDonald and Booth 1990).
     double sah_cost = 0;
 };
-TreeStats stats_of(const Tree& tree, float node_cost = 1.0f);
+TreeStats stats_of(const Tree& tree, float node_cost = 1.0f, std::uint32_t block = 1);
 
 /// End-point overlap (Aila, Karras and Laine 2013, "On Quality Metrics of Bounding Volume Hierarchies",
 /// section 3): the same sum over the area of the primitives' surface inside each node that does not belong to
