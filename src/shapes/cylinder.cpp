@@ -12,18 +12,13 @@ namespace {
 struct Cylinder final : QuadricShape<Cylinder> {
     float radius = 1;
     float zmin = -1, zmax = 1;
-    float phimax = 360;
 
     static void describe(Fields<Cylinder>& f) {
         f.about("A tube around the z axis, open at both ends.");
         f.field("radius", &Cylinder::radius, "radius").above(0);
         f.field("zmin", &Cylinder::zmin, "lower end");
         f.field("zmax", &Cylinder::zmax, "upper end");
-        f.field("phimax", &Cylinder::phimax, "angle around the z axis that is kept")
-            .in(0, 360)
-            .above(0)
-            .unit("degrees");
-        describe_common(f);
+        describe_sector(f);
         f.example("tube", {make_float("radius", 0.75f)});
         f.example("gutter", {make_float("radius", 1), make_float("zmin", 0.5f), make_float("zmax", 3),
                              make_float("phimax", 150)});
@@ -35,7 +30,6 @@ struct Cylinder final : QuadricShape<Cylinder> {
         r_ = static_cast<double>(radius);
         z_min_ = static_cast<double>(zmin);
         z_max_ = static_cast<double>(zmax);
-        phi_max_ = to_radians(phimax);
         finish_placement(node, context);
     }
 
@@ -59,9 +53,7 @@ struct Cylinder final : QuadricShape<Cylinder> {
         double scale = r_ / std::hypot(p.x, p.y);
         return {p.x * scale, p.y * scale, p.z};
     }
-    bool covers(Vec3d p) const {
-        return p.z >= z_min_ && p.z <= z_max_ && (phimax >= 360 || azimuth(p) <= phi_max_);
-    }
+    bool covers(Vec3d p) const { return p.z >= z_min_ && p.z <= z_max_ && in_sector(p); }
     Vec3d outward(Vec3d p) const { return normalize(Vec3d{p.x, p.y, 0}); }
     ObjectTangents tangents(Vec3d p) const {
         double height = z_max_ - z_min_;
@@ -76,7 +68,7 @@ struct Cylinder final : QuadricShape<Cylinder> {
     double object_area() const { return (z_max_ - z_min_) * r_ * phi_max_; }
 
   private:
-    double r_ = 1, z_min_ = -1, z_max_ = 1, phi_max_ = 0;
+    double r_ = 1, z_min_ = -1, z_max_ = 1;
 };
 
 } // namespace

@@ -14,18 +14,13 @@ struct Disk final : QuadricShape<Disk> {
     float height = 0;
     float radius = 1;
     float innerradius = 0;
-    float phimax = 360;
 
     static void describe(Fields<Disk>& f) {
         f.about("A flat disk across the z axis, or a ring, or a sector of either.");
         f.field("height", &Disk::height, "where it cuts the z axis");
         f.field("radius", &Disk::radius, "radius").above(0);
         f.field("innerradius", &Disk::innerradius, "radius of the hole").at_least(0);
-        f.field("phimax", &Disk::phimax, "angle around the z axis that is kept")
-            .in(0, 360)
-            .above(0)
-            .unit("degrees");
-        describe_common(f);
+        describe_sector(f);
         f.example("plate", {make_float("radius", 1)});
         f.example("ring sector", {make_float("height", 0.5f), make_float("radius", 2),
                                   make_float("innerradius", 0.75f), make_float("phimax", 230)});
@@ -38,7 +33,6 @@ struct Disk final : QuadricShape<Disk> {
         z_ = static_cast<double>(height);
         r_ = static_cast<double>(radius);
         hole_ = static_cast<double>(innerradius);
-        phi_max_ = to_radians(phimax);
         finish_placement(node, context);
     }
 
@@ -57,7 +51,7 @@ struct Disk final : QuadricShape<Disk> {
     Vec3d snap(Vec3d p) const { return {p.x, p.y, z_}; }
     bool covers(Vec3d p) const {
         double r2 = p.x * p.x + p.y * p.y;
-        return r2 <= r_ * r_ && r2 >= hole_ * hole_ && (phimax >= 360 || azimuth(p) <= phi_max_);
+        return r2 <= r_ * r_ && r2 >= hole_ * hole_ && in_sector(p);
     }
     Vec3d outward(Vec3d) const { return {0, 0, 1}; }
     ObjectTangents tangents(Vec3d p) const {
@@ -79,7 +73,7 @@ struct Disk final : QuadricShape<Disk> {
     double object_area() const { return phi_max_ * 0.5 * (r_ * r_ - hole_ * hole_); }
 
   private:
-    double z_ = 0, r_ = 1, hole_ = 0, phi_max_ = 0;
+    double z_ = 0, r_ = 1, hole_ = 0;
 };
 
 } // namespace

@@ -51,6 +51,8 @@ inline double to_radians(float degrees) {
 ///     double object_area() const;
 template <class Q>
 struct QuadricShape : Shape {
+    float phimax = 360;
+
     bool intersect(const Ray& ray, std::uint32_t /*primitive*/, Intersection& hit) const override {
         ObjectRay r = placement.to_object(ray);
         Roots roots = self().roots(r);
@@ -92,8 +94,17 @@ struct QuadricShape : Shape {
     }
 
   protected:
+    template <class T>
+    static void describe_sector(Fields<T>& f) {
+        f.field("phimax", &T::phimax, "angle around the z axis that is kept")
+            .in(0, 360)
+            .above(0)
+            .unit("degrees");
+        describe_common(f);
+    }
     /// To be called last in finish().
     void finish_placement(const Node& node, const BuildContext& context) {
+        phi_max_ = to_radians(phimax);
         placement.set(node, context);
         measure();
     }
@@ -102,8 +113,10 @@ struct QuadricShape : Shape {
                 self().tangents(p).uv, pdf};
     }
     float area_pdf() const { return static_cast<float>(1 / world_area_); }
+    bool in_sector(Vec3d p) const { return phimax >= 360 || azimuth(p) <= phi_max_; }
 
     Placement placement;
+    double phi_max_ = 0; ///< phimax in radians
 
   private:
     const Q& self() const { return static_cast<const Q&>(*this); }

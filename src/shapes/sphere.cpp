@@ -30,7 +30,6 @@ double intersect_ray_sphere(Vec3d o, Vec3d d, double r) {
 struct Sphere final : QuadricShape<Sphere> {
     float radius = 1;
     std::optional<float> zmin, zmax;
-    float phimax = 360;
 
     static void describe(Fields<Sphere>& f);
     void finish(const Node& node, BuildContext& context);
@@ -63,9 +62,7 @@ struct Sphere final : QuadricShape<Sphere> {
         return solve_quadratic(a, h, dot(r.o, r.o) - r2, a * (r2 - dot(miss, miss)));
     }
     Vec3d snap(Vec3d p) const { return p * (r_ / length(p)); }
-    bool covers(Vec3d p) const {
-        return is_whole_ || (p.z >= z_min_ && p.z <= z_max_ && (phimax >= 360 || azimuth(p) <= phi_max_));
-    }
+    bool covers(Vec3d p) const { return is_whole_ || (p.z >= z_min_ && p.z <= z_max_ && in_sector(p)); }
     Vec3d outward(Vec3d p) const { return normalize(p); }
     ObjectTangents tangents(Vec3d p) const {
         // On the axis the angle is arbitrary: just beside it all is defined.
@@ -132,7 +129,7 @@ struct Sphere final : QuadricShape<Sphere> {
         return static_cast<float>(per_object_steradian * placement.solid_angle_ratio(w));
     }
 
-    double r_ = 1, z_min_ = -1, z_max_ = 1, theta_min_ = 0, theta_max_ = 0, phi_max_ = 0;
+    double r_ = 1, z_min_ = -1, z_max_ = 1, theta_min_ = 0, theta_max_ = 0;
     bool is_whole_ = true;
     std::optional<Ball> ball_;
 };
@@ -142,11 +139,7 @@ void Sphere::describe(Fields<Sphere>& f) {
     f.field("radius", &Sphere::radius, "radius").above(0);
     f.field("zmin", &Sphere::zmin, "lowest height that is kept").otherwise("-radius");
     f.field("zmax", &Sphere::zmax, "largest height that is kept").otherwise("radius");
-    f.field("phimax", &Sphere::phimax, "angle around the z axis that is kept")
-        .in(0, 360)
-        .above(0)
-        .unit("degrees");
-    describe_common(f);
+    describe_sector(f);
     f.example("ball", {make_float("radius", 1)});
     f.example("dome", {make_float("radius", 2), make_float("zmin", 0.5f)});
     f.example("slice", {make_float("radius", 1), make_float("zmin", -0.5f), make_float("zmax", 0.75f),
@@ -165,7 +158,6 @@ void Sphere::finish(const Node& node, BuildContext& context) {
                         zmin.value_or(-radius), zmax.value_or(radius), radius));
     theta_min_ = std::acos(z_min_ / r_);
     theta_max_ = std::acos(z_max_ / r_);
-    phi_max_ = to_radians(phimax);
     is_whole_ = z_min_ <= -r_ && z_max_ >= r_ && phimax >= 360;
     finish_placement(node, context);
     if (auto scale = placement.uniform_scale(); is_whole_ && scale)
