@@ -1,5 +1,8 @@
-/// The orthographic camera: all rays parallel, so that size does not change with distance. With a lens radius
-/// each place on the film has a small lens of its own, and the plane at the focal distance is sharp.
+/// The orthographic camera: all rays parallel, so that size does not change with distance. A lens, as pbrt-v4
+/// has it, is one thin lens around the camera's axis: a ray leaves a point of the lens towards the place
+/// where the parallel ray meets the plane at the focal distance. That plane is sharp and keeps its scale;
+/// before and behind it the picture is in perspective, however small the lens, since all light goes through
+/// it.
 #include "cameras/screen.h"
 #include "math/warp.h"
 
@@ -10,7 +13,9 @@ namespace {
 class OrthographicCamera final : public FlatCamera {
   public:
     static void describe(Fields<OrthographicCamera>& f) {
-        f.about("Parallel rays, as in technical drawings: distant things keep their size.");
+        f.about(
+            "Parallel rays, as in technical drawings: distant things keep their size. With a lens, that "
+            "holds in the plane of focus only, since all rays then pass through the lens, as in pbrt-v4.");
         describe_flat(f);
         describe_common(f);
         f.example("small", {make_array("screenwindow", ValueType::real, std::vector<float>{-2, 2, -1, 1})});
@@ -22,8 +27,8 @@ class OrthographicCamera final : public FlatCamera {
         float time = ray_time(sample.time);
         if (lensradius == 0) return make_ray({s.x, s.y, 0}, {0, 0, 1}, time);
         Vec2d lens = Vec2d(sample_disk(sample.lens)) * static_cast<double>(lensradius);
-        return make_ray({s.x + lens.x, s.y + lens.y, 0},
-                        {-lens.x, -lens.y, static_cast<double>(focaldistance)}, time);
+        return make_ray({lens.x, lens.y, 0}, {s.x - lens.x, s.y - lens.y, static_cast<double>(focaldistance)},
+                        time);
     }
 };
 

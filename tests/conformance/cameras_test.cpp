@@ -131,16 +131,56 @@ TEST(Orthographic, RaysAreParallelAndFillTheWindow) {
     expect_near(camera->ray(at(123, 456))->ray.d, {0, 0, 1}, 0);
 }
 
-TEST(Orthographic, LensIsSharpAtTheFocalPlaneAndTendsToNoLens) {
+// Thin lenses: all rays of a place on the film pass through a disk of radius r around the axis and meet at
+// focal distance f. So they cut the plane at distance z in a disk of radius r |1 - z / f|, uniformly, around
+// z / f times the place where they meet (z = 0: the lens itself; z = f: one sharp point).
+void expect_circles_of_confusion(const Camera& camera, Vec2 film, Vec2 focus, float r, float f) {
+    constexpr int n = 2000;
+    for (float z : {0.0f, 0.5f * f, f, 1.5f * f, 3 * f}) {
+        SCOPED_TRACE(z);
+        Rng rng(4);
+        float radius = r * std::abs(1 - z / f), widest = 0;
+        Vec2 sum;
+        double squares = 0;
+        for (int i = 0; i < n; ++i) {
+            Ray ray = camera.ray({film, {rng.uniform(), rng.uniform()}, 0})->ray;
+            EXPECT_EQ(ray.o.z, 0);
+            Vec3 p = ray.at(z / ray.d.z);
+            Vec2 off = Vec2(p.x, p.y) - focus * (z / f);
+            sum += off;
+            squares += static_cast<double>(dot(off, off));
+            widest = std::max(widest, std::sqrt(dot(off, off)));
+        }
+        EXPECT_LE(widest, radius + 1e-5f);
+        EXPECT_GE(widest, 0.98f * radius);
+        // Of a uniform disk: each axis' variance is radius^2 / 4 and the mean of the squared distance
+        // radius^2 / 2, with variance radius^4 / 12. Five standard deviations; a false alarm in 10^5 for all.
+        float deviation = 5 * radius / (2 * std::sqrt(static_cast<float>(n)));
+        expect_near({sum.x / n, sum.y / n, 0}, {}, deviation + 1e-5f);
+        EXPECT_NEAR(squares / n, sqr(radius) / 2, 5 * sqr(radius) / std::sqrt(12.0f * n) + 1e-9f);
+    }
+}
+
+TEST(Perspective, LensGivesTheThinLensCirclesOfConfusion) {
+    auto camera =
+        make_camera("perspective", {make_float("lensradius", 0.2f), make_float("focaldistance", 5)});
+    expect_circles_of_confusion(*camera, {400, 300}, {0, 0}, 0.2f, 5);
+    // The upper left corner at fov 90: the window at z = 1 reaches from -4/3 to 4/3 and from -1 to 1.
+    expect_circles_of_confusion(*camera, {0, 0}, {-20 / 3.0f, 5}, 0.2f, 5);
+}
+
+TEST(Orthographic, LensGivesTheThinLensCirclesOfConfusion) {
     auto camera =
         make_camera("orthographic", {make_float("lensradius", 0.1f), make_float("focaldistance", 4)});
+    expect_circles_of_confusion(*camera, {400, 300}, {0, 0}, 0.1f, 4);
+    // The plane of focus shows what it would without a lens.
+    expect_circles_of_confusion(*camera, {0, 0}, {-4 / 3.0f, 1}, 0.1f, 4);
     auto plain = make_camera("orthographic", {});
     Rng rng(3);
     for (int i = 0; i < 100; ++i) {
         CameraSample s = at(rng.uniform() * 800, rng.uniform() * 600, {rng.uniform(), rng.uniform()});
-        Ray r = camera->ray(s)->ray, p = plain->ray(s)->ray;
-        expect_near(r.at((4 - r.o.z) / r.d.z), p.at(4), 1e-5f);
-        EXPECT_LE(length(r.o - p.o), 0.1001f);
+        Ray r = camera->ray(s)->ray;
+        expect_near(r.at(4 / r.d.z), plain->ray(s)->ray.at(4), 1e-5f);
     }
 }
 
