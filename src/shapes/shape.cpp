@@ -6,7 +6,8 @@ namespace {
 
 // A density per area, seen from a point that is v away on a surface with normal n, per steradian (Pharr,
 // Jakob and Humphreys 2023, equation 6.8). 0 where the surface is seen edge-on: no finite density describes
-// that.
+// that. Next to edge-on, a sample and the hit of the ray towards it may differ by factors, since the ray's
+// rounding changes the cosine; each has the density of its own point.
 float per_steradian(float area_pdf, Vec3d v, Vec3 n) {
     double d2 = dot(v, v);
     double cosine = std::abs(dot(v, Vec3d(n))) / std::sqrt(d2);
