@@ -74,13 +74,13 @@ coverage:
 	gcovr --root . --object-directory build-coverage --filter src/ --sort-percentage --print-summary
 
 tidy:
-	@tools/install_packages build test clang tidy
-	@test -f build-clang/build.ninja || cmake --preset clang
-	run-clang-tidy-16 -quiet -p build-clang '/src/.*\.cpp$$'
+	@tools/install_packages build clang tidy
+	@test -f build-tidy/build.ninja || cmake --preset tidy
+	run-clang-tidy-16 -quiet -p build-tidy '/src/.*\.cpp$$'
 
 install: program
 	@cmake --build --preset release --target alhazen_library
 	cmake --install build --prefix "$(PREFIX)"
 
 clean:
-	rm -rf build build-debug build-sanitize build-tsan build-coverage build-clang
+	rm -rf build build-debug build-sanitize build-tsan build-coverage build-clang build-tidy

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -51,6 +50,19 @@ class Order {
     char before_ = 0, after_ = 0;
 };
 
+template <class Body>
+void for_runs(std::size_t count, std::size_t grain, const Body& body) {
+    grain = std::max<std::size_t>(1, grain);
+    Order order;
+    tbb::parallel_for(
+        std::size_t{0}, (count + grain - 1) / grain,
+        [&](std::size_t run) {
+            Order::Piece piece(order);
+            body(run * grain, std::min(count, (run + 1) * grain));
+        },
+        tbb::simple_partitioner());
+}
+
 } // namespace
 
 int hardware_threads() {
@@ -71,22 +83,14 @@ void with_threads(int threads, const std::function<void()>& work) {
 }
 
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
-    parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+    for_runs(count, grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i != end; ++i) body(i);
     });
 }
 
 void parallel_ranges(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t, std::size_t)>& body) {
-    grain = std::max<std::size_t>(1, grain);
-    Order order;
-    tbb::parallel_for(
-        std::size_t{0}, (count + grain - 1) / grain,
-        [&](std::size_t run) {
-            Order::Piece piece(order);
-            body(run * grain, std::min(count, (run + 1) * grain));
-        },
-        tbb::simple_partitioner());
+    tbb::this_task_arena::isolate([&] { for_runs(count, grain, body); });
 }
 
 void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second) {

@@ -18,8 +18,9 @@ void with_threads(int threads, const std::function<void()>& work);
 /// taken in runs of grain.
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body);
 
-/// Calls body(begin, end) for the runs of at most grain indices, starting at multiples of grain, that 0 <= i
-/// < count consists of.
+/// Calls body(begin, end) for the runs of at most grain indices, starting at multiples of grain, that make up
+/// 0 .. count - 1. The caller may hold a lock, unlike around the other functions: a thread that waits here
+/// for the others takes up no other work meanwhile.
 void parallel_ranges(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t, std::size_t)>& body);
 

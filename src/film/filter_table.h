@@ -23,7 +23,7 @@ class FilterCurve {
         constexpr int steps = 256;
         std::vector<float> heights;
         for (int i = 0; i < steps; ++i)
-            heights.push_back(curve(radius * ((static_cast<float>(i) + 0.5f) / (steps / 2) - 1)));
+            heights.push_back(curve(radius * ((static_cast<float>(i) + 0.5f) / (0.5f * steps) - 1)));
         build(heights, radius);
     }
     Sample sample(float u) const {

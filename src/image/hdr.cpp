@@ -117,7 +117,9 @@ Rgbe to_rgbe(Vec3 c) {
     if (std::frexp(largest, &exponent) >= 255.5f / 256) ++exponent;
     // What the smallest exponent cannot hold is black; so no pixel looks like the mark (1, 1, 1, n) of a run.
     if (exponent < -127 || largest == 0) return {0, 0, 0, 0};
-    auto mantissa = [&](float v) { return static_cast<std::uint8_t>(std::ldexp(v, 8 - exponent) + 0.5f); };
+    auto mantissa = [&](float v) {
+        return static_cast<std::uint8_t>(std::lround(std::ldexp(v, 8 - exponent)));
+    };
     return {mantissa(c.x), mantissa(c.y), mantissa(c.z), static_cast<std::uint8_t>(exponent + 128)};
 }
 

@@ -3,9 +3,8 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
+#include "base/threads.h"
 #include "describe/context.h"
 #include "image/codec.h"
 #include "image/statistics.h"
@@ -17,8 +16,8 @@ EmissionImage::EmissionImage(const Image& image, ColorMode mode)
       light_scale_(SpectrumValue::illuminant_rgb(srgb_space(), Vec3(1)).light_scale(mode)),
       texels_(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height())) {
     // Fitting spectra takes microseconds a texel.
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels_.size(), 4096),
-                      [&](const auto& range) { fill(image, range.begin(), range.end(), mode); });
+    parallel_ranges(texels_.size(), 4096,
+                    [&](std::size_t begin, std::size_t end) { fill(image, begin, end, mode); });
 }
 
 void EmissionImage::fill(const Image& image, std::size_t first, std::size_t last, ColorMode mode) {

@@ -1,6 +1,6 @@
 #include "textures/texels.h"
 
-#include <oneapi/tbb/parallel_for.h>
+#include "base/threads.h"
 
 namespace alhazen {
 
@@ -66,11 +66,10 @@ struct ScaledTexels final : ColorTexels {
 
 std::vector<SigmoidCoefficients> upsample_all(const std::vector<Vec3>& colors) {
     std::vector<SigmoidCoefficients> out(colors.size());
-    using Range = tbb::blocked_range<std::size_t>;
     // Each colour's coefficients depend on that colour alone, so the split does not show.
-    tbb::parallel_for(Range(0, colors.size(), 4096), [&](const Range& r) {
-        upsample(srgb_space(), std::span(colors).subspan(r.begin(), r.size()),
-                 std::span(out).subspan(r.begin(), r.size()));
+    parallel_ranges(colors.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        upsample(srgb_space(), std::span(colors).subspan(begin, end - begin),
+                 std::span(out).subspan(begin, end - begin));
     });
     return out;
 }

@@ -12,11 +12,8 @@
 #include <cmath>
 #include <limits>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_invoke.h>
-#include <tbb/parallel_reduce.h>
-
 #include "base/lanes.h"
+#include "base/threads.h"
 
 namespace alhazen {
 
@@ -116,16 +113,12 @@ Sum sum_over(std::span<const Reference> references, const Add& add) {
         for (const Reference& r : references) add(whole, r);
         return whole;
     }
-    return tbb::parallel_deterministic_reduce(
-        tbb::blocked_range<std::size_t>(0, references.size(), loop_grain), whole,
-        [&](const tbb::blocked_range<std::size_t>& range, Sum sum) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) add(sum, references[i]);
-            return sum;
+    return parallel_sum(
+        references.size(), loop_grain, whole,
+        [&](Sum& sum, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) add(sum, references[i]);
         },
-        [](Sum a, const Sum& b) {
-            a.join(b);
-            return a;
-        });
+        [](Sum& sum, const Sum& part) { sum.join(part); });
 }
 
 struct Split {
@@ -199,7 +192,7 @@ class SahBuilder {
         auto build_left = [&] { build_node(node + 1, begin, middle, depth + 1); };
         auto build_right = [&] { build_node(right, middle, end, depth + 1); };
         if (range.size() > task_size) {
-            tbb::parallel_invoke(build_left, build_right);
+            parallel_invoke(build_left, build_right);
         } else {
             build_left();
             build_right();
