@@ -36,6 +36,7 @@ struct AccelWalk {
 };
 
 AccelBuilder sah_builder();
+AccelBuilder lbvh_builder();
 
 AccelWalk stack_walk();
 

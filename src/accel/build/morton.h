@@ -59,12 +59,34 @@ struct MortonKey {
     bool operator==(const MortonKey&) const = default;
 };
 
-/// Keys for the centroids of all boxes that are not empty, in the boxes' order; bits for each axis (1 ...
-/// 21).
+/// Keys for the centroids of all boxes that are not empty, in the boxes' order.
+class MortonCoder {
+  public:
+    /// bits for each axis: 1 ... 21. The boxes must outlive the coder.
+    MortonCoder(std::span<const Bounds3> boxes, int bits = 21);
+
+    /// How many boxes are not empty.
+    std::size_t count() const { return count_; }
+    /// The grid over all centroids.
+    const MortonGrid& grid() const { return grid_; }
+    /// Writes count() keys.
+    void write(std::span<MortonKey> keys) const;
+
+  private:
+    std::span<const Bounds3> boxes_;
+    std::vector<std::size_t> places_; // of the first key of each run of boxes
+    std::size_t count_ = 0;
+    MortonGrid grid_;
+};
 std::vector<MortonKey> morton_keys(std::span<const Bounds3> boxes, int bits = 21);
 
-/// Sorts by code, eight bits at a time from the lowest up, in parallel; keys of the same code keep their
-/// order (so their indices rise, if they did before).
+/// Sorts by code, in parallel; keys of the same code keep their order (so their indices rise, if they did
+/// before). scratch: as many keys, of any value.
+///
+/// A radix sort from the highest bits down: a digit's worth of them deals the keys out to piles, until piles
+/// fit the cache and are finished there. So only the first deal or two go through memory, and bits that tell
+/// nothing apart are skipped; going through all 63 bits from the lowest up takes eight rounds through memory.
+void sort_by_code(std::span<MortonKey> keys, std::span<MortonKey> scratch);
 void sort_by_code(std::vector<MortonKey>& keys);
 
 } // namespace alhazen
