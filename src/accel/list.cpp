@@ -13,6 +13,7 @@ std::span<const AccelBuilder> accel_builders() {
 std::span<const AccelWalk> accel_walks() {
     static const AccelWalk all[] = {
         stack_walk(),
+        stackless_walk(),
     };
     return all;
 }

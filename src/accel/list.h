@@ -39,6 +39,7 @@ AccelBuilder sah_builder();
 AccelBuilder lbvh_builder();
 
 AccelWalk stack_walk();
+AccelWalk stackless_walk();
 
 /// All of them, in the order in which they are documented.
 std::span<const AccelBuilder> accel_builders();
