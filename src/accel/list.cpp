@@ -14,6 +14,7 @@ std::span<const AccelWalk> accel_walks() {
     static const AccelWalk all[] = {
         stack_walk(),
         stackless_walk(),
+        cwbvh_walk(),
         shortstack_walk(),
     };
     return all;

@@ -40,6 +40,7 @@ AccelBuilder lbvh_builder();
 
 AccelWalk stack_walk();
 AccelWalk stackless_walk();
+AccelWalk cwbvh_walk();
 AccelWalk shortstack_walk();
 
 /// All of them, in the order in which they are documented.
