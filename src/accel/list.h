@@ -39,6 +39,7 @@ AccelBuilder sah_builder();
 AccelBuilder lbvh_builder();
 
 AccelWalk stack_walk();
+AccelWalk guthe_walk();
 AccelWalk stackless_walk();
 AccelWalk cwbvh_walk();
 AccelWalk shortstack_walk();
