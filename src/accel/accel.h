@@ -18,8 +18,8 @@ struct AccelChoice {
     std::string name() const { return builder + "/" + walk; }
 };
 
-/// Reads "builder/walk", "builder" or "/walk". On error returns nullopt and sets error: what is unknown, and
-/// what there is.
+/// Reads "builder/walk", "builder" or "/walk", where "+reinsertion" may follow the builder. On error returns
+/// nullopt and sets error: what is unknown, and what there is.
 std::optional<AccelChoice> parse_accel(std::string_view text, std::string& error);
 
 /// The tree and the structure for a choice of known names.

@@ -6,6 +6,7 @@ std::span<const AccelBuilder> accel_builders() {
     static const AccelBuilder all[] = {
         sah_builder(),
         lbvh_builder(),
+        ploc_builder(),
     };
     return all;
 }

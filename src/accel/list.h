@@ -37,6 +37,7 @@ struct AccelWalk {
 
 AccelBuilder sah_builder();
 AccelBuilder lbvh_builder();
+AccelBuilder ploc_builder();
 
 AccelWalk stack_walk();
 AccelWalk guthe_walk();

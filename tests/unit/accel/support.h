@@ -102,12 +102,14 @@ inline Ray random_ray(const Triangles& triangles, float scale, Rng& rng) {
     }
 }
 
-/// All pairs "builder/walk".
+/// All pairs "builder/walk", and trees improved by reinsertion with every walk.
 inline std::vector<AccelChoice> all_choices() {
     std::vector<AccelChoice> all;
     for (const AccelBuilder& b : accel_builders())
         for (const AccelWalk& w : accel_walks())
             all.push_back({std::string(b.name), std::string(w.name), {}});
+    for (const char* improved : {"sah+reinsertion", "lbvh+reinsertion"})
+        for (const AccelWalk& w : accel_walks()) all.push_back({improved, std::string(w.name), {}});
     return all;
 }
 

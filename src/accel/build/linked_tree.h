@@ -1,0 +1,40 @@
+/// Trees while they are being made: nodes that stand anywhere and name their children, as bottom-up builders
+/// and optimisers need them, and the way from there to a Tree.
+///
+/// On that way subtrees become leaves where that is cheaper. A builder that works from the bottom up starts
+/// with leaves of one primitive; what a leaf of several costs against the subtree in its place is known
+/// exactly by then, so that of all trees that differ only in this, the cheapest results.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "accel/build/tree.h"
+
+namespace alhazen {
+
+struct LinkedTree {
+    struct Node {
+        Bounds3 bounds;          ///< of leaves; finish() sets those of inner nodes
+        std::uint32_t left = 0;  ///< inner node: its left child; leaf: its first place in order
+        std::uint32_t right = 0; ///< inner node: its right child
+        std::uint32_t count = 0; ///< primitives of a leaf; 0 for an inner node
+        bool is_leaf() const { return count > 0; }
+    };
+    std::vector<Node> nodes; ///< empty: no tree
+    std::uint32_t root = 0;
+    std::vector<std::uint32_t> order; ///< primitive numbers
+};
+
+/// The same tree, node for node.
+LinkedTree linked(Tree&& tree);
+
+/// The tree in depth-first order, with subtrees of up to options.leaf_size primitives made leaves where that
+/// lowers the cost of the surface area heuristic. With a leaf_size of 1 every leaf stays as it is. No path
+/// may be longer than Tree::max_depth.
+Tree finish(LinkedTree&& linked, const BuildOptions& options);
+
+/// Makes leaves of a finished tree's subtrees in the same way.
+void collapse_leaves(Tree& tree, const BuildOptions& options);
+
+} // namespace alhazen
