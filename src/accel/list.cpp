@@ -6,6 +6,8 @@ std::span<const AccelBuilder> accel_builders() {
     static const AccelBuilder all[] = {
         sah_builder(),
         lbvh_builder(),
+        octree_builder(),
+        kdtree_builder(),
         ploc_builder(),
     };
     return all;

@@ -37,6 +37,8 @@ struct AccelWalk {
 
 AccelBuilder sah_builder();
 AccelBuilder lbvh_builder();
+AccelBuilder octree_builder();
+AccelBuilder kdtree_builder();
 AccelBuilder ploc_builder();
 
 AccelWalk stack_walk();

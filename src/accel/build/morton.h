@@ -22,6 +22,16 @@ inline std::uint64_t spread_bits(std::uint64_t v) {
     return (v | v << 2) & 0x1249249249249249;
 }
 
+/// Every third bit, from the lowest on: undoes spread_bits.
+inline std::uint32_t gather_bits(std::uint64_t v) {
+    v &= 0x1249249249249249;
+    v = (v | v >> 2) & 0x10c30c30c30c30c3;
+    v = (v | v >> 4) & 0x100f00f00f00f00f;
+    v = (v | v >> 8) & 0x001f0000ff0000ff;
+    v = (v | v >> 16) & 0x001f00000000ffff;
+    return static_cast<std::uint32_t>((v | v >> 32) & 0x1fffff);
+}
+
 /// The code of a cell: x's bits above y's above z's. Coordinates below 2^21.
 inline std::uint64_t morton_code(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     return spread_bits(x) << 2 | spread_bits(y) << 1 | spread_bits(z);
@@ -39,6 +49,11 @@ class MortonGrid {
         if (side > 0) scale_ = static_cast<double>(1u << bits) / side;
     }
     std::uint64_t code(Vec3 p) const { return morton_code(cell(p, 0), cell(p, 1), cell(p, 2)); }
+    /// The coordinate at which a code's cell begins.
+    float lower_side(std::uint64_t code, int axis) const {
+        const std::uint32_t cell = gather_bits(code >> (2 - axis));
+        return static_cast<float>(static_cast<double>(lo_[axis]) + (scale_ > 0 ? cell / scale_ : 0));
+    }
 
   private:
     // In double, in which no difference of floats overflows.

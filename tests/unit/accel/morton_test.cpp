@@ -24,6 +24,7 @@ TEST(Morton, BitsOfTheCoordinatesTakeTurns) {
             for (int axis = 0; axis < 3; ++axis)
                 expected |= static_cast<std::uint64_t>(cell[axis] >> bit & 1) << (3 * bit + 2 - axis);
         EXPECT_EQ(morton_code(cell[0], cell[1], cell[2]), expected);
+        for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(gather_bits(expected >> (2 - axis)), cell[axis]);
     }
 }
 
@@ -32,6 +33,9 @@ TEST(Morton, TheGridsCellsAreCubes) {
     EXPECT_EQ(grid.code({0, 0, 0}), 0u);
     EXPECT_EQ(grid.code({8, 2, 1}), morton_code(7, 2, 1));
     EXPECT_EQ(grid.code({3.5f, 1.5f, 0.5f}), morton_code(3, 1, 0));
+    EXPECT_EQ(grid.lower_side(morton_code(3, 1, 0), 0), 3);
+    EXPECT_EQ(grid.lower_side(morton_code(3, 1, 0), 1), 1);
+    EXPECT_EQ(grid.lower_side(morton_code(3, 1, 0), 2), 0);
     // Neither boxes without extent nor those whose extent is no float upset it.
     EXPECT_EQ(MortonGrid({{1, 2, 3}, {1, 2, 3}}, 21).code({1, 2, 3}), 0u);
     MortonGrid huge({{-3e38f, -3e38f, 0}, {3e38f, 3e38f, 1}}, 21);
