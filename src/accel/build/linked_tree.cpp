@@ -20,7 +20,10 @@ class Finisher {
 
     Tree run() {
         measure(linked_.root, 0);
-        tree_.nodes.resize(below_[linked_.root].nodes);
+        std::size_t nodes = below_[linked_.root].nodes;
+        tree_.nodes.reserve(nodes);
+        prefer_large_pages(tree_.nodes.data(), nodes * sizeof(Tree::Node));
+        tree_.nodes.resize(nodes);
         tree_.order.resize(below_[linked_.root].references);
         place(linked_.root, 0, 0, 0);
         return std::move(tree_);
@@ -41,7 +44,7 @@ class Finisher {
     void measure(std::uint32_t i, int depth) {
         LinkedTree::Node& n = linked_.nodes[i];
         if (n.is_leaf()) {
-            below_[i] = {1, n.count, n.bounds.half_area() * tests(n.count)};
+            below_[i] = {1, n.count, n.bounds().half_area() * tests(n.count)};
             return;
         }
         if (depth < task_depth) {
@@ -50,10 +53,11 @@ class Finisher {
             measure(n.left, depth + 1);
             measure(n.right, depth + 1);
         }
-        n.bounds = linked_.nodes[n.left].bounds;
-        n.bounds.extend(linked_.nodes[n.right].bounds);
+        Bounds3 bounds = linked_.nodes[n.left].bounds();
+        bounds.extend(linked_.nodes[n.right].bounds());
+        n.set_bounds(bounds);
         const Below &left = below_[n.left], &right = below_[n.right];
-        float area = n.bounds.half_area();
+        float area = bounds.half_area();
         std::uint32_t references = left.references + right.references;
         float as_node = area * node_cost_ + left.cost + right.cost;
         float as_leaf = area * tests(references);
@@ -67,7 +71,7 @@ class Finisher {
     void place(std::uint32_t i, std::uint32_t node, std::uint32_t first, int depth) {
         const LinkedTree::Node& n = linked_.nodes[i];
         Tree::Node& placed = tree_.nodes[node];
-        placed.bounds = n.bounds;
+        placed.bounds = n.bounds();
         if (below_[i].nodes == 1) {
             placed.first_or_right = first;
             placed.count = below_[i].references;
@@ -99,7 +103,7 @@ class Finisher {
     LinkedTree& linked_;
     float node_cost_;
     std::uint32_t leaf_size_, block_;
-    std::vector<Below> below_;
+    RawBuffer<Below> below_;
     Tree tree_;
 };
 
@@ -107,14 +111,14 @@ class Finisher {
 
 LinkedTree linked(Tree&& tree) {
     LinkedTree linked;
-    linked.nodes.resize(tree.nodes.size());
+    linked.nodes = RawBuffer<LinkedTree::Node>(tree.nodes.size());
     parallel_ranges(tree.nodes.size(), 16384, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Tree::Node& n = tree.nodes[i];
             if (n.is_leaf())
-                linked.nodes[i] = {n.bounds, n.first_or_right, 0, n.count};
+                linked.nodes[i].make_leaf(n.bounds, n.first_or_right, n.count);
             else
-                linked.nodes[i] = {n.bounds, static_cast<std::uint32_t>(i) + 1, n.first_or_right, 0};
+                linked.nodes[i].make_inner(static_cast<std::uint32_t>(i) + 1, n.first_or_right);
         }
     });
     linked.order = std::move(tree.order);
@@ -122,7 +126,7 @@ LinkedTree linked(Tree&& tree) {
 }
 
 Tree finish(LinkedTree&& linked, const BuildOptions& options) {
-    if (linked.nodes.empty()) return {};
+    if (linked.nodes.size() == 0) return {};
     return Finisher(linked, options).run();
 }
 

@@ -6,22 +6,42 @@
 /// exactly by then, so that of all trees that differ only in this, the cheapest results.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "accel/build/raw_buffer.h"
 #include "accel/build/tree.h"
 
 namespace alhazen {
 
 struct LinkedTree {
+    /// Without initial values, since there are many and each is written once.
     struct Node {
-        Bounds3 bounds;          ///< of leaves; finish() sets those of inner nodes
-        std::uint32_t left = 0;  ///< inner node: its left child; leaf: its first place in order
-        std::uint32_t right = 0; ///< inner node: its right child
-        std::uint32_t count = 0; ///< primitives of a leaf; 0 for an inner node
+        std::array<float, 3> lo, hi; ///< of leaves; finish() sets those of inner nodes
+        std::uint32_t left;          ///< inner node: its left child; leaf: its first place in order
+        std::uint32_t right;         ///< inner node: its right child
+        std::uint32_t count;         ///< primitives of a leaf; 0 for an inner node
+
         bool is_leaf() const { return count > 0; }
+        Bounds3 bounds() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
+        void set_bounds(const Bounds3& b) {
+            lo = {b.lo.x, b.lo.y, b.lo.z};
+            hi = {b.hi.x, b.hi.y, b.hi.z};
+        }
+        void make_leaf(const Bounds3& b, std::uint32_t first, std::uint32_t primitives) {
+            set_bounds(b);
+            left = first;
+            right = 0;
+            count = primitives;
+        }
+        void make_inner(std::uint32_t left_child, std::uint32_t right_child) {
+            left = left_child;
+            right = right_child;
+            count = 0;
+        }
     };
-    std::vector<Node> nodes; ///< empty: no tree
+    RawBuffer<Node> nodes; ///< empty: no tree
     std::uint32_t root = 0;
     std::vector<std::uint32_t> order; ///< primitive numbers
 };

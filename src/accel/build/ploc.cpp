@@ -55,12 +55,13 @@ void store(float* p, Lanes4 v) {
 // The boxes still in the line, scaled (see scale.h), each side of the boxes in a run of its own. Behind the
 // last stand some boxes so large that nobody chooses them.
 struct Line {
-    std::array<std::vector<float>, 6> sides; // lo.x lo.y lo.z hi.x hi.y hi.z
-    std::vector<std::uint32_t> nodes;        // of the tree, one a box
+    std::array<RawBuffer<float>, 6> sides; // lo.x lo.y lo.z hi.x hi.y hi.z
+    RawBuffer<std::uint32_t> nodes;        // of the tree, one a box
+    RawBuffer<std::uint8_t> heights;       // of these, in edges
     std::size_t size = 0;
 
-    explicit Line(std::size_t most) : nodes(most) {
-        for (auto& side : sides) side.resize(most + radius + 2 * lanes);
+    explicit Line(std::size_t most) : nodes(most), heights(most) {
+        for (auto& side : sides) side = RawBuffer<float>(most + radius + 2 * lanes);
     }
     void end_at(std::size_t count) {
         size = count;
@@ -99,7 +100,7 @@ class PlocBuilder {
     PlocBuilder(std::span<const Bounds3> boxes, std::vector<MortonKey> keys)
         : count_(keys.size()), line_(count_), next_(count_), nearest_(count_),
           parts_((count_ + grain - 1) / grain) {
-        tree_.nodes.resize(2 * count_ - 1);
+        tree_.nodes = RawBuffer<LinkedTree::Node>(2 * count_ - 1);
         tree_.order.resize(count_);
         Bounds3 whole = parallel_sum(
             count_, grain, Bounds3{},
@@ -113,8 +114,9 @@ class PlocBuilder {
                 auto number = static_cast<std::uint32_t>(i);
                 const Bounds3& box = boxes[keys[i].index];
                 tree_.order[i] = keys[i].index;
-                tree_.nodes[i] = {box, number, 0, 1};
+                tree_.nodes[i].make_leaf(box, number, 1);
                 line_.nodes[i] = number;
+                line_.heights[i] = 0;
                 line_.set(i, scaled(box, scale));
             }
         });
@@ -122,11 +124,11 @@ class PlocBuilder {
     }
 
     LinkedTree run() {
-        for (int round = 0; line_.size > 1; ++round) {
-            // The tree's height grows by at most one a round. When only halving can keep it in bounds, the
-            // line is halved from here on.
+        while (line_.size > 1) {
+            // Height grows by at most one a round. When only halving can keep it in bounds, the line is
+            // halved from here on.
             auto rounds_of_halving = static_cast<int>(std::bit_width(line_.size - 1));
-            bool may_choose = round + 1 + rounds_of_halving <= Tree::max_depth;
+            bool may_choose = height_ + 1 + rounds_of_halving <= Tree::max_depth;
             pairs_ = 0;
             if (may_choose) {
                 point();
@@ -146,6 +148,7 @@ class PlocBuilder {
     // A part of the line: what it has, and then what all parts before it have.
     struct Part {
         std::size_t pairs, boxes;
+        std::uint8_t height;
     };
 
     // Everybody points at their nearest.
@@ -201,7 +204,7 @@ class PlocBuilder {
     // Counts the pairs in the line; afterwards the parts know what is before them.
     void count_pairs() {
         parallel_ranges(line_.size, grain, [&](std::size_t begin, std::size_t end) {
-            Part part{0, 0};
+            Part part{0, 0, 0};
             for (std::size_t i = begin; i < end; ++i) {
                 bool mutual = is_mutual(i), first = i < nearest_[i];
                 part.pairs += mutual && first;
@@ -209,7 +212,7 @@ class PlocBuilder {
             }
             parts_[begin / grain] = part;
         });
-        Part before{0, 0};
+        Part before{0, 0, 0};
         for (std::size_t p = 0; p * grain < line_.size; ++p) {
             Part part = parts_[p];
             parts_[p] = before;
@@ -233,12 +236,19 @@ class PlocBuilder {
                     next_.sides[s + 3][to] = std::max(line_.sides[s + 3][i], line_.sides[s + 3][other]);
                 }
                 next_.nodes[to] = line_.nodes[i];
+                next_.heights[to] = line_.heights[i];
                 if (!mutual) continue;
+                next_.heights[to] =
+                    static_cast<std::uint8_t>(1 + std::max(line_.heights[i], line_.heights[other]));
+                part.height = std::max(part.height, next_.heights[to]);
                 std::size_t node = used_ + part.pairs++;
-                tree_.nodes[node] = {{}, line_.nodes[i], line_.nodes[other], 0};
+                tree_.nodes[node].make_inner(line_.nodes[i], line_.nodes[other]);
                 next_.nodes[to] = static_cast<std::uint32_t>(node);
             }
+            parts_[begin / grain].height = part.height;
         });
+        for (std::size_t p = 0; p * grain < line_.size; ++p)
+            height_ = std::max(height_, static_cast<int>(parts_[p].height));
         next_.end_at(line_.size - pairs_);
         std::swap(line_, next_);
         used_ += pairs_;
@@ -247,10 +257,11 @@ class PlocBuilder {
     std::size_t count_;
     LinkedTree tree_;
     Line line_, next_;
-    std::vector<std::uint32_t> nearest_;
+    RawBuffer<std::uint32_t> nearest_;
     std::vector<Part> parts_;
     std::size_t pairs_ = 0;     // of this round
     std::size_t used_ = count_; // nodes of the tree
+    int height_ = 0;            // of the tallest subtree
 };
 
 Tree build(const Primitives&, std::span<const Bounds3> boxes, const BuildOptions& options) {

@@ -408,7 +408,7 @@ void optimize_by_reinsertion(Tree& tree, const ReinsertionOptions& options) {
     LinkedTree result = linked(std::move(tree));
     for (std::uint32_t i = 0; i < result.nodes.size(); ++i) {
         const Node& n = reinserter.nodes()[i];
-        if (!n.is_leaf()) result.nodes[i] = {{}, n.children[0], n.children[1], 0};
+        if (!n.is_leaf()) result.nodes[i].make_inner(n.children[0], n.children[1]);
     }
     tree = finish(std::move(result), {.leaf_size = 1});
 }

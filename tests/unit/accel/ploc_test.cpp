@@ -22,17 +22,19 @@ Tree build_halving(const std::vector<Bounds3>& boxes, const BuildOptions& option
     auto keys = morton_keys(boxes);
     sort_by_code(keys);
     LinkedTree tree;
+    tree.nodes = RawBuffer<LinkedTree::Node>(2 * keys.size() - 1);
+    std::uint32_t used = 0;
     for (const MortonKey& key : keys) {
         auto place = static_cast<std::uint32_t>(tree.order.size());
-        tree.nodes.push_back({boxes[key.index], place, 0, 1});
+        tree.nodes[used++].make_leaf(boxes[key.index], place, 1);
         tree.order.push_back(key.index);
     }
     auto halve = [&](auto&& self, std::uint32_t begin, std::uint32_t end) -> std::uint32_t {
         if (end - begin == 1) return begin;
         std::uint32_t middle = begin + (end - begin) / 2;
         std::uint32_t left = self(self, begin, middle), right = self(self, middle, end);
-        tree.nodes.push_back({{}, left, right, 0});
-        return static_cast<std::uint32_t>(tree.nodes.size() - 1);
+        tree.nodes[used].make_inner(left, right);
+        return used++;
     };
     tree.root = halve(halve, 0, static_cast<std::uint32_t>(keys.size()));
     return finish(std::move(tree), options);

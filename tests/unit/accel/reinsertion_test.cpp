@@ -17,19 +17,20 @@ using namespace accel_test;
 // Halves the primitives as they are numbered, wherever they are; leaves of leaf_size.
 Tree build_blindly(const std::vector<Bounds3>& boxes, std::uint32_t leaf_size) {
     LinkedTree tree;
+    tree.nodes = RawBuffer<LinkedTree::Node>(2 * boxes.size());
+    std::uint32_t used = 0;
     for (std::uint32_t i = 0; i < boxes.size(); ++i) tree.order.push_back(i);
     auto halve = [&](auto&& self, std::uint32_t begin, std::uint32_t end) -> std::uint32_t {
-        LinkedTree::Node node;
         if (end - begin <= leaf_size) {
-            node = {{}, begin, 0, end - begin};
-            for (std::uint32_t i = begin; i < end; ++i) node.bounds.extend(boxes[i]);
+            Bounds3 box;
+            for (std::uint32_t i = begin; i < end; ++i) box.extend(boxes[i]);
+            tree.nodes[used].make_leaf(box, begin, end - begin);
         } else {
             std::uint32_t middle = begin + (end - begin) / 2;
-            node.left = self(self, begin, middle);
-            node.right = self(self, middle, end);
+            std::uint32_t left = self(self, begin, middle), right = self(self, middle, end);
+            tree.nodes[used].make_inner(left, right);
         }
-        tree.nodes.push_back(node);
-        return static_cast<std::uint32_t>(tree.nodes.size() - 1);
+        return used++;
     };
     tree.root = halve(halve, 0, static_cast<std::uint32_t>(boxes.size()));
     return finish(std::move(tree), {.leaf_size = 1});
@@ -38,15 +39,15 @@ Tree build_blindly(const std::vector<Bounds3>& boxes, std::uint32_t leaf_size) {
 // One box after the other is split off, from the last; depth edges.
 Tree build_comb(const std::vector<Bounds3>& boxes) {
     LinkedTree tree;
+    tree.nodes = RawBuffer<LinkedTree::Node>(2 * boxes.size() - 1);
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        tree.nodes.push_back({boxes[i], i, 0, 1});
+        tree.nodes[i].make_leaf(boxes[i], i, 1);
         tree.order.push_back(i);
     }
-    for (std::uint32_t i = 1; i < boxes.size(); ++i) {
-        std::uint32_t below = i == 1 ? 0 : static_cast<std::uint32_t>(tree.nodes.size()) - 1;
-        tree.nodes.push_back({{}, i, below, 0});
-    }
-    tree.root = static_cast<std::uint32_t>(tree.nodes.size()) - 1;
+    auto used = static_cast<std::uint32_t>(boxes.size());
+    for (std::uint32_t i = 1; i < boxes.size(); ++i, ++used)
+        tree.nodes[used].make_inner(i, i == 1 ? 0 : used - 1);
+    tree.root = used - 1;
     return finish(std::move(tree), {.leaf_size = 1});
 }
 
