@@ -12,6 +12,8 @@
 /// sizes of the subtrees, counted on the way up, say where each goes.
 #include "accel/build/lbvh.h"
 
+#include <cstring>
+
 #include "accel/build/radix_tree.h"
 #include "accel/list.h"
 #include "base/lanes.h"
@@ -25,119 +27,134 @@ constexpr std::uint32_t task_size = 16384;
 // How far ahead of use boxes are fetched: they are read in the curve's order, not in memory's.
 constexpr std::size_t fetch_ahead = 16;
 
-// What a subtree will be: its box, its cost (area times tests), and how many of the tree's nodes it takes.
-// The last two live in the box's fourth lanes, so that all is two registers.
-struct Subtree {
-    Lanes4 lo, hi;
+// A box as six floats in a row, lower corner first, wherever they stand: the first four and the last four are
+// two registers, of which three lanes each count.
+struct BoxLanes {
+    Lanes4 lo; // x y z -
+    Lanes4 hi; // - x y z
 
-    float cost() const { return lo[3]; }
-    std::uint32_t nodes() const { return std::bit_cast<std::uint32_t>(static_cast<float>(hi[3])); }
-    void set(float cost, std::uint32_t nodes) {
-        lo[3] = cost;
-        hi[3] = std::bit_cast<float>(nodes);
+    explicit BoxLanes(const float* box) {
+        std::memcpy(&lo, box, sizeof lo);
+        std::memcpy(&hi, box + 2, sizeof hi);
     }
-    Bounds3 bounds() const { return {to_vec3(lo), to_vec3(hi)}; }
+    void extend(const BoxLanes& b) {
+        lo = min_lanes(b.lo, lo);
+        hi = max_lanes(b.hi, hi);
+    }
+    void store(float* box) const {
+        std::memcpy(box, &lo, 3 * sizeof(float));
+        for (int axis = 0; axis < 3; ++axis) box[3 + axis] = hi[axis + 1];
+    }
+    float half_area() const {
+        const float x = hi[1] - lo[0], y = hi[2] - lo[1], z = hi[3] - lo[2];
+        return x * y + y * z + z * x;
+    }
 };
+static_assert(sizeof(Bounds3) == 6 * sizeof(float));
 
-float half_area(Lanes4 lo, Lanes4 hi) {
-    Lanes4 d = hi - lo;
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
-}
+// What an inner node of the radix tree will be.
+struct Subtree {
+    float box[6];
+    float cost;          // area times tests
+    std::uint32_t nodes; // how many of the tree's nodes it takes
+
+    Bounds3 bounds() const { return {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}}; }
+};
 
 class LbvhBuilder {
   public:
-    LbvhBuilder(std::span<const Bounds3> boxes, std::span<const MortonKey> keys, const BuildOptions& options)
-        : boxes_(boxes), keys_(keys), node_cost_(options.node_cost),
-          leaf_size_(std::min(options.leaf_size, Tree::max_leaf_size)), radix_(keys),
+    LbvhBuilder(std::span<const Bounds3> boxes, std::span<const MortonKey> keys, const BuildOptions& options,
+                RawBuffer<MortonKey>&& scratch)
+        : boxes_(boxes), keys_(keys), options_(options), radix_(keys, std::move(scratch)),
           subtrees_(radix_.inner()) {}
 
     Tree build() {
-        Tree tree;
         radix_.bottom_up([this](std::size_t leaf) { fetch(leaf + fetch_ahead); },
-                         [this](std::uint32_t node) { fit(node); });
-        reserve(tree.order, keys_.size());
-        tree.order.resize(keys_.size());
+                         [this](std::uint32_t i, RadixTree::Node n) { fit(i, n); });
+        Tree tree;
+        resize(tree.order, keys_.size());
         parallel_ranges(keys_.size(), task_size, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) tree.order[i] = keys_[i].index;
         });
-        const std::size_t nodes = radix_.inner() ? subtrees_[0].nodes() : 1;
-        reserve(tree.nodes, nodes);
-        tree.nodes.resize(nodes);
-        if (radix_.inner())
-            place(tree.nodes.data(), 0, 0);
-        else
-            tree.nodes[0] = leaf_node(0);
+        resize(tree.nodes, radix_.inner() ? subtrees_[0].nodes : 1);
+        radix_.inner() ? place(tree.nodes.data(), 0, 0) : place_leaf(tree.nodes.data(), 0, 0);
         return tree;
     }
 
   private:
     template <class T>
-    static void reserve(std::vector<T>& v, std::size_t size) {
+    static void resize(std::vector<T>& v, std::size_t size) {
         v.reserve(size);
         prefer_large_pages(v.data(), size * sizeof(T));
+        v.resize(size);
     }
+
     void fetch(std::size_t leaf) const {
         if (leaf < keys_.size()) __builtin_prefetch(&boxes_[keys_[leaf].index]);
     }
 
-    Subtree child(std::uint32_t number, bool is_leaf) const {
-        if (!is_leaf) return subtrees_[number];
-        const Bounds3& box = boxes_[keys_[number].index];
-        Subtree s{to_lanes(box.lo), to_lanes(box.hi)};
-        s.set(half_area(s.lo, s.hi), 1);
-        return s;
+    // A child in registers, read without a branch: which of the two kinds it is, no processor guesses.
+    struct Child {
+        BoxLanes box;
+        float cost;
+        std::uint32_t nodes;
+    };
+    Child child(std::uint32_t number, bool is_leaf) const {
+        const Subtree& subtree = subtrees_[is_leaf ? 0 : number];
+        const float* leaf_box = &boxes_[keys_[number].index].lo.x;
+        Child c{BoxLanes(is_leaf ? leaf_box : subtree.box), subtree.cost, subtree.nodes};
+        const float area = c.box.half_area();
+        c.cost = is_leaf ? area : c.cost;
+        c.nodes = is_leaf ? 1 : c.nodes;
+        return c;
     }
 
-    void fit(std::uint32_t i) {
-        const RadixTree::Node n = radix_.node(i);
-        const Subtree left = child(n.split, n.split == n.first);
-        const Subtree right = child(n.split + 1, n.split + 1 == n.last);
-        Subtree s{min_lanes(left.lo, right.lo), max_lanes(left.hi, right.hi)};
-        const float area = half_area(s.lo, s.hi);
-        const float split_cost = area * node_cost_ + (left.cost() + right.cost());
-        const float leaf_cost = area * static_cast<float>(n.count());
-        const bool is_leaf = n.count() <= leaf_size_ && leaf_cost <= split_cost;
-        s.set(is_leaf ? leaf_cost : split_cost, is_leaf ? 1 : 1 + left.nodes() + right.nodes());
-        subtrees_[i] = s;
+    void fit(std::uint32_t i, RadixTree::Node n) {
+        const Child l = child(n.split, n.split == n.first), r = child(n.split + 1, n.split + 1 == n.last);
+        BoxLanes box = l.box;
+        box.extend(r.box);
+        const float area = box.half_area();
+        const float split_cost = area * options_.node_cost + (l.cost + r.cost);
+        const std::uint32_t tests = (n.count() + options_.block - 1) / options_.block;
+        const float leaf_cost = area * static_cast<float>(tests);
+        const bool is_leaf =
+            n.count() <= std::min(options_.leaf_size, Tree::max_leaf_size) && leaf_cost <= split_cost;
+        Subtree& s = subtrees_[i];
+        box.store(s.box);
+        s.cost = is_leaf ? leaf_cost : split_cost;
+        s.nodes = is_leaf ? 1 : 1 + l.nodes + r.nodes;
     }
 
-    Tree::Node leaf_node(std::uint32_t leaf) const { return {boxes_[keys_[leaf].index], leaf, 1}; }
-
-    // Writes the subtree of inner node i to the places from at on.
+    void place_leaf(Tree::Node* nodes, std::uint32_t leaf, std::uint32_t at) const {
+        nodes[at] = {boxes_[keys_[leaf].index], leaf, 1};
+    }
+    // Writes the subtree of an inner node to the places from at on.
     void place(Tree::Node* nodes, std::uint32_t i, std::uint32_t at) const {
-        const RadixTree::Node n = radix_.node(i);
-        const Subtree& s = subtrees_[i];
-        if (s.nodes() == 1) {
-            nodes[at] = {s.bounds(), n.first, n.count()};
-            return;
-        }
-        const bool left_is_leaf = n.split == n.first, right_is_leaf = n.split + 1 == n.last;
-        const std::uint32_t right = at + 1 + (left_is_leaf ? 1 : subtrees_[n.split].nodes());
-        nodes[at] = {s.bounds(), right, 0};
-        auto place_left = [&] {
-            if (left_is_leaf)
-                nodes[at + 1] = leaf_node(n.split);
-            else
-                place(nodes, n.split, at + 1);
-        };
-        auto place_right = [&] {
-            if (right_is_leaf)
-                nodes[right] = leaf_node(n.split + 1);
-            else
-                place(nodes, n.split + 1, right);
-        };
-        if (n.count() > task_size) {
-            parallel_invoke(place_left, place_right);
-        } else {
-            place_left();
-            place_right();
+        for (;;) {
+            const RadixTree::Node n = radix_.node(i);
+            const Subtree& s = subtrees_[i];
+            if (s.nodes == 1) {
+                nodes[at] = {s.bounds(), n.first, n.count()};
+                return;
+            }
+            const bool left_is_leaf = n.split == n.first, right_is_leaf = n.split + 1 == n.last;
+            const std::uint32_t right = at + 1 + (left_is_leaf ? 1 : subtrees_[n.split].nodes);
+            nodes[at] = {s.bounds(), right, 0};
+            if (n.count() > task_size && !left_is_leaf && !right_is_leaf) {
+                parallel_invoke([&] { place(nodes, n.split, at + 1); },
+                                [&] { place(nodes, n.split + 1, right); });
+                return;
+            }
+            left_is_leaf ? place_leaf(nodes, n.split, at + 1) : place(nodes, n.split, at + 1);
+            if (right_is_leaf) return place_leaf(nodes, n.split + 1, right);
+            i = n.split + 1;
+            at = right;
         }
     }
 
     std::span<const Bounds3> boxes_;
     std::span<const MortonKey> keys_;
-    float node_cost_;
-    std::uint32_t leaf_size_;
+    BuildOptions options_;
     RadixTree radix_;
     RawBuffer<Subtree> subtrees_; // of inner nodes
 };
@@ -153,11 +170,9 @@ Tree build_lbvh(std::span<const Bounds3> boxes, const BuildOptions& options, Mor
     if (coder.count() == 0) return {};
     RawBuffer<MortonKey> keys(coder.count());
     coder.write(keys);
-    {
-        RawBuffer<MortonKey> scratch(keys.size());
-        sort_by_code(keys, scratch);
-    }
-    return LbvhBuilder(boxes, keys, options).build();
+    RawBuffer<MortonKey> scratch(keys.size());
+    sort_by_code(keys, scratch);
+    return LbvhBuilder(boxes, keys, options, std::move(scratch)).build();
 }
 
 AccelBuilder lbvh_builder() {

@@ -35,7 +35,7 @@ class OctreeBuilder {
           first_cell_(radix_.inner() + radix_.leaves() + 1) {}
 
     Octree build() {
-        radix_.bottom_up([](std::size_t) {}, [this](std::uint32_t i) { fit(i); });
+        radix_.bottom_up([](std::size_t) {}, [this](std::uint32_t i, RadixTree::Node n) { fit(i, n); });
         number_cells();
         Octree octree;
         octree.max_level = options_.max_level;
@@ -157,8 +157,7 @@ class OctreeBuilder {
     const Bounds3& bounds(std::size_t edge) const {
         return is_inner(edge) ? bounds_[edge] : boxes_[keys_[edge - radix_.inner()].index];
     }
-    void fit(std::uint32_t i) {
-        const RadixTree::Node n = radix_.node(i);
+    void fit(std::uint32_t i, RadixTree::Node n) {
         Bounds3 box = bounds(n.split == n.first ? radix_.inner() + n.split : n.split);
         box.extend(bounds(n.split + 1 == n.last ? radix_.inner() + n.last : n.split + 1));
         bounds_[i] = box;

@@ -35,7 +35,10 @@ class RadixTree {
     static constexpr std::uint32_t none = ~0u;
 
     /// keys: sorted by code, fewer than 2^31; they must outlive the tree.
-    explicit RadixTree(std::span<const MortonKey> keys);
+    explicit RadixTree(std::span<const MortonKey> keys)
+        : RadixTree(keys, RawBuffer<MortonKey>(keys.size())) {}
+    /// The same, in the memory of as many keys that are no longer needed.
+    RadixTree(std::span<const MortonKey> keys, RawBuffer<MortonKey>&& memory);
 
     std::span<const MortonKey> keys() const { return keys_; }
     std::size_t leaves() const { return keys_.size(); }
@@ -55,19 +58,23 @@ class RadixTree {
         return std::countl_zero(difference);
     }
 
-    /// Calls visit(node) for every inner node after both of its children were visited, in parallel: from each
-    /// leaf a way leads up; of the two that arrive at a node the first ends there and the second goes on
-    /// (section 4). arrive(leaf) is called before a leaf's way begins.
+    /// Calls visit(number, node) for every inner node after both of its children were visited, in parallel:
+    /// from each leaf a way leads up; of the two that arrive at a node the first ends there and the second
+    /// goes on (section 4). arrive(leaf) is called before a leaf's way begins.
     template <class Arrive, class Visit>
     void bottom_up(const Arrive& arrive, const Visit& visit) const {
         auto arrived = std::make_unique<std::atomic<std::uint8_t>[]>(inner());
         parallel_ranges(leaves(), grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t leaf = begin; leaf < end; ++leaf) {
                 arrive(leaf);
-                std::uint32_t node = leaf_parent_[leaf];
-                while (node != none && arrived[node].exchange(1, std::memory_order_acq_rel)) {
-                    visit(node);
-                    node = inner_parent_[node];
+                std::uint32_t number = leaf_parent_[leaf];
+                while (number != none) {
+                    const Node n = node(number);
+                    // Where no other thread can arrive, the exchange need not be one.
+                    const bool is_own = n.first >= begin && n.last < end;
+                    if (!(is_own ? exchange_alone(arrived[number]) : exchange(arrived[number]))) break;
+                    visit(number, n);
+                    number = inner_parent_[number];
                 }
             }
         });
@@ -79,12 +86,21 @@ class RadixTree {
         std::uint32_t other_end, split;
     };
 
+    static bool exchange(std::atomic<std::uint8_t>& flag) {
+        return flag.exchange(1, std::memory_order_acq_rel) != 0;
+    }
+    static bool exchange_alone(std::atomic<std::uint8_t>& flag) {
+        const bool before = flag.load(std::memory_order_relaxed) != 0;
+        flag.store(1, std::memory_order_relaxed);
+        return before;
+    }
     int delta(std::int64_t i, std::int64_t j) const;
     Link find(std::int64_t i) const;
 
     std::span<const MortonKey> keys_;
-    RawBuffer<Link> nodes_;
-    RawBuffer<std::uint32_t> inner_parent_, leaf_parent_;
+    RawBuffer<MortonKey> memory_; // holds the three arrays
+    Link* nodes_;
+    std::uint32_t *inner_parent_, *leaf_parent_;
 };
 
 } // namespace alhazen

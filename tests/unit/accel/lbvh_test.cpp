@@ -72,8 +72,7 @@ TEST(RadixTree, NodesAreVisitedAfterTheirChildren) {
     std::vector<std::uint32_t> sum(tree.inner(), 0);
     std::atomic<std::size_t> arrived = 0, visited = 0;
     tree.bottom_up([&](std::size_t) { ++arrived; },
-                   [&](std::uint32_t i) {
-                       RadixTree::Node n = tree.node(i);
+                   [&](std::uint32_t i, RadixTree::Node n) {
                        sum[i] = (n.split == n.first ? 1 : sum[n.split]) +
                                 (n.split + 1 == n.last ? 1 : sum[n.split + 1]);
                        EXPECT_EQ(sum[i], n.count());
