@@ -36,6 +36,7 @@ struct AccelWalk {
 };
 
 AccelBuilder sah_builder();
+AccelBuilder sbvh_builder();
 AccelBuilder lbvh_builder();
 AccelBuilder octree_builder();
 AccelBuilder kdtree_builder();

@@ -36,7 +36,7 @@ class Primitives {
     /// Contains all that its test can hit, up to a few roundings of the box's coordinates; a primitive whose
     /// box is empty, infinite or NaN is never hit.
     virtual Bounds3 bounds(std::uint32_t primitive) const = 0;
-    /// For triangles only.
+    /// For triangles only, whose box follows from them.
     virtual Corners corners(std::uint32_t primitive) const = 0;
 };
 
@@ -46,7 +46,8 @@ class Primitives {
 /// triangles without area among them, are empty.
 std::vector<Bounds3> padded_boxes(const Primitives& primitives);
 
-/// The padding of padded_boxes for one box.
+/// How far padded_boxes moves the sides of a box, and the box after that.
+Vec3 padding(const Bounds3& box);
 Bounds3 padded(const Bounds3& box);
 
 /// Tests of the primitives that are not plain triangles, for one query of one or many rays.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "accel/layout/binary.h"
+#include "tests/unit/accel/check_tree.h"
 #include "tests/unit/accel/support.h"
 
 namespace alhazen {
@@ -16,63 +17,22 @@ Tree build_sah(const std::vector<Bounds3>& boxes, const BuildOptions& options = 
     return sah_builder().build(Triangles{}, boxes, options);
 }
 
-// Every primitive in one leaf, every box inside its parent's, and no path longer than promised. Returns the
-// depth.
-int check_tree(const Tree& tree, const std::vector<Bounds3>& boxes, std::size_t expected_primitives) {
-    EXPECT_EQ(tree.order.size(), expected_primitives);
-    if (tree.nodes.empty()) return 0;
-    std::vector<int> seen(boxes.size(), 0);
-    struct Visit {
-        std::size_t node;
-        int depth;
-    };
-    std::vector<Visit> stack{{0, 0}};
-    std::size_t visited = 0;
-    int deepest = 0;
-    while (!stack.empty()) {
-        auto [i, depth] = stack.back();
-        stack.pop_back();
-        ++visited;
-        deepest = std::max(deepest, depth);
-        const Tree::Node& n = tree.nodes[i];
-        auto inside = [&](const Bounds3& b) { return n.bounds.contains(b.lo) && n.bounds.contains(b.hi); };
-        if (n.is_leaf()) {
-            EXPECT_LE(n.count, Tree::max_leaf_size);
-            for (std::uint32_t k = 0; k < n.count; ++k) {
-                std::uint32_t p = tree.order[n.first_or_right + k];
-                ++seen[p];
-                EXPECT_TRUE(inside(boxes[p]));
-            }
-            continue;
-        }
-        for (std::size_t child : {i + 1, static_cast<std::size_t>(n.first_or_right)}) {
-            EXPECT_LT(child, tree.nodes.size());
-            EXPECT_TRUE(inside(tree.nodes[child].bounds));
-            stack.push_back({child, depth + 1});
-        }
-    }
-    EXPECT_EQ(visited, tree.nodes.size());
-    EXPECT_EQ(static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1)), expected_primitives);
-    EXPECT_LE(deepest, Tree::max_depth);
-    return deepest;
-}
-
 TEST(Sah, BuildsAProperTree) {
     for (std::size_t n : {1u, 2u, 3u, 5u, 9u, 1000u, 50000u}) {
         auto boxes = random_triangles(n, 1, 0.01f, n).boxes();
-        check_tree(build_sah(boxes), boxes, n);
+        check_tree_of_boxes(build_sah(boxes), boxes);
     }
 }
 
 TEST(Sah, CoincidentBoxesAreHalved) {
     std::vector<Bounds3> boxes(10000, Bounds3{{1, 2, 3}, {4, 5, 6}});
-    EXPECT_LE(check_tree(build_sah(boxes), boxes, boxes.size()), 14);
+    EXPECT_LE(check_tree_of_boxes(build_sah(boxes), boxes), 14);
     // Same centroids, different sizes.
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         float r = static_cast<float>(i);
         boxes[i] = {{-r, -r, -r}, {r, r, r}};
     }
-    check_tree(build_sah(boxes), boxes, boxes.size());
+    check_tree_of_boxes(build_sah(boxes), boxes);
 }
 
 TEST(Sah, DepthStaysBoundedForGeometricSequences) {
@@ -83,7 +43,7 @@ TEST(Sah, DepthStaysBoundedForGeometricSequences) {
             float p = std::ldexp(1.0f, i);
             boxes.push_back({{p, p, p}, {p * 1.01f, p * 1.01f, p * 1.01f}});
         }
-    check_tree(build_sah(boxes), boxes, boxes.size());
+    check_tree_of_boxes(build_sah(boxes), boxes);
 }
 
 TEST(Sah, HugeAndTinyNumbersDoNotUpsetIt) {
@@ -94,13 +54,88 @@ TEST(Sah, HugeAndTinyNumbersDoNotUpsetIt) {
         boxes.push_back({p, p});
     }
     boxes.push_back({{-3.4e38f, -3.4e38f, -3.4e38f}, {3.4e38f, 3.4e38f, 3.4e38f}});
-    check_tree(build_sah(boxes), boxes, boxes.size());
+    check_tree_of_boxes(build_sah(boxes), boxes);
 }
 
 TEST(Sah, OptionsMayAskForNoMoreThanTheTreeAllows) {
     auto boxes = random_triangles(1000, 1, 1, 4).boxes();
-    check_tree(build_sah(boxes, {.node_cost = 1000, .leaf_size = 1000}), boxes, boxes.size());
-    check_tree(build_sah(boxes, {.node_cost = 0, .leaf_size = 1}), boxes, boxes.size());
+    check_tree_of_boxes(build_sah(boxes, {.node_cost = 1000, .leaf_size = 1000}), boxes);
+    check_tree_of_boxes(build_sah(boxes, {.node_cost = 0, .leaf_size = 1}), boxes);
+}
+
+TEST(Sah, ALeafCostsAsManyTestsAsBlocks) {
+    // Four pairs of cubes, far apart.
+    std::vector<Bounds3> boxes;
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 2; ++k) {
+            Vec3 p{static_cast<float>(100 * i), static_cast<float>(k), 0};
+            boxes.push_back({p, p + Vec3(1)});
+        }
+    // One by one, the pairs are worth a node; tested eight at once, a leaf of all costs 1 and no tree less
+    // than its node_cost.
+    Tree single = build_sah(boxes, {.node_cost = 0.9f, .leaf_size = 8});
+    EXPECT_EQ(stats_of(single).leaves, 4u);
+    check_tree_of_boxes(single, boxes);
+    Tree blocks = build_sah(boxes, {.node_cost = 1, .leaf_size = 8, .block = 8});
+    EXPECT_EQ(stats_of(blocks).leaves, 1u);
+    EXPECT_EQ(stats_of(blocks, 1, 8).sah_cost, 1);
+    // Cheap nodes pay off again.
+    Tree cheap = build_sah(boxes, {.node_cost = 0.3f, .leaf_size = 8, .block = 8});
+    EXPECT_EQ(stats_of(cheap).leaves, 4u);
+}
+
+// The heuristic's best tree from the top down: every split of the sorted centres is tried.
+double cost_by_sweep(std::vector<Bounds3> boxes, float root_area) {
+    Bounds3 all;
+    for (const Bounds3& b : boxes) all.extend(b);
+    double area = static_cast<double>(all.half_area() / root_area),
+           leaf = area * static_cast<double>(boxes.size());
+    if (boxes.size() == 1) return leaf;
+    float best = infinity;
+    std::vector<Bounds3> best_order;
+    std::size_t best_left = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::stable_sort(boxes.begin(), boxes.end(), [axis](const Bounds3& a, const Bounds3& b) {
+            return a.lo[axis] + a.hi[axis] < b.lo[axis] + b.hi[axis];
+        });
+        std::vector<float> right(boxes.size() + 1, 0);
+        Bounds3 side;
+        for (std::size_t i = boxes.size(); i-- > 1;) {
+            side.extend(boxes[i]);
+            right[i] = side.half_area() * static_cast<float>(boxes.size() - i);
+        }
+        side = {};
+        bool is_better = false;
+        for (std::size_t i = 1; i < boxes.size(); ++i) {
+            side.extend(boxes[i - 1]);
+            float cost = side.half_area() * static_cast<float>(i) + right[i];
+            if (cost < best) best = cost, best_left = i, is_better = true;
+        }
+        if (is_better) best_order = boxes;
+    }
+    auto middle = best_order.begin() + static_cast<std::ptrdiff_t>(best_left);
+    bool is_leaf = boxes.size() <= 4 && leaf <= area + static_cast<double>(best / root_area);
+    return is_leaf ? leaf
+                   : area + cost_by_sweep({best_order.begin(), middle}, root_area) +
+                         cost_by_sweep({middle, best_order.end()}, root_area);
+}
+
+TEST(Sah, CostsNoMoreThanTryingEverySplit) {
+    for (float size : {0.01f, 0.1f, 0.5f}) {
+        auto boxes = random_triangles(3000, 1, size, 31).boxes();
+        Tree tree = build_sah(boxes);
+        double cost = cost_by_sweep(boxes, tree.nodes[0].bounds.half_area());
+        EXPECT_LT(stats_of(tree).sah_cost, 1.03 * cost) << size;
+    }
+}
+
+TEST(Sah, EmptyBoxesAreLeftOut) {
+    auto boxes = random_triangles(50000, 1, 0.01f, 32).boxes();
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (i % 3 == 0 || (i > 20000 && i < 40000)) boxes[i] = {};
+    check_tree_of_boxes(build_sah(boxes), boxes);
+    std::vector<Bounds3> empty(40000);
+    EXPECT_TRUE(build_sah(empty).nodes.empty());
 }
 
 TEST(Sah, TheNumberOfThreadsDoesNotChangeABit) {
@@ -165,7 +200,7 @@ TEST(Refit, BoxesFollowThePrimitives) {
     for (Corners& c : t.list)
         for (Vec3* p : {&c.a, &c.b, &c.c}) *p = Vec3{p->y, p->x * 2, p->z + 1};
     refit(tree, t.boxes());
-    check_tree(tree, t.boxes(), 2000);
+    check_tree_of_boxes(tree, t.boxes());
     for (const AccelWalk& walk : accel_walks()) {
         auto structure = walk.make(t, tree, {});
         NoTests tests;
