@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <ostream>
 #include <string>
 
 #include "accel/list.h"
@@ -16,6 +17,9 @@ struct AccelChoice {
     WalkOptions walk_options;
 
     std::string name() const { return builder + "/" + walk; }
+    friend std::ostream& operator<<(std::ostream& to, const AccelChoice& choice) {
+        return to << choice.name();
+    }
 };
 
 /// Reads "builder/walk", "builder" or "/walk", where "+reinsertion" may follow the builder. On error returns

@@ -15,50 +15,51 @@
 #include <limits>
 
 #include "base/bounds.h"
+#include "base/lanes.h"
 #include "base/ray.h"
 
 namespace alhazen {
 
 /// Whether the ray can hit anything: NaN, infinity, no direction and an empty interval are sorted out here.
 inline bool is_traceable(const Ray& ray) {
-    return is_finite(ray.o) && is_finite(ray.d) && (ray.d.x != 0 || ray.d.y != 0 || ray.d.z != 0) &&
-           ray.tmax > 0;
+    // What is not finite becomes NaN, which stays.
+    float all = (ray.o.x - ray.o.x) + (ray.o.y - ray.o.y) + (ray.o.z - ray.o.z) + (ray.d.x - ray.d.x) +
+                (ray.d.y - ray.d.y) + (ray.d.z - ray.d.z);
+    return all == 0 && (ray.d.x != 0 || ray.d.y != 0 || ray.d.z != 0) && ray.tmax > 0;
 }
 
 /// Along each axis: a plane p is entered at p * enter_scale - enter_offset and left at p * leave_scale -
-/// leave_offset; products and difference may be rounded once or twice. Never NaN for finite planes.
+/// leave_offset; products and difference may be rounded once or twice. Never NaN for finite planes. The
+/// fourth lane means nothing.
 struct BoxRay {
-    float enter_scale[3], enter_offset[3];
-    float leave_scale[3], leave_offset[3];
-    int near_side[3]; ///< 1 where the ray enters through the upper plane
+    Lanes4 enter_scale, enter_offset;
+    Lanes4 leave_scale, leave_offset;
+    IntLanes4 near_side; ///< 1 where the ray enters through the upper plane
 
     /// The ray must be traceable; scene contains all boxes.
     BoxRay(const Ray& ray, const Bounds3& scene) {
-        const Vec3 d = abs(ray.d);
-        const int main_axis = max_dimension(d);
-        const float longest = d[main_axis];
+        const Lanes4 o = to_lanes(ray.o), d = to_lanes(ray.d);
+        // -0 counts as negative, as its reciprocal does.
+        const IntLanes4 sign = lane_bits(d) & sign_bit;
+        near_side = (sign >> 31) & 1;
+        const Lanes4 speed = magnitude(d);
+        const float longest = std::max(std::max(speed[0], speed[1]), speed[2]);
+        const Lanes4 spread = all_lanes(16 * unit * longest);
+        // An axis along which the ray hardly moves may never be left; there the padding is that of the
+        // farthest point the ray can reach.
+        const Lanes4 far = max_lanes(magnitude(to_lanes(scene.lo) - o), magnitude(to_lanes(scene.hi) - o));
+        const float reach = std::max(std::max(far[0], far[1]), far[2]);
+        const Lanes4 steady_pad = all_lanes(32 * unit * reach);
+        const Lanes4 pad = 4 * unit * magnitude(o) + (speed < 4 * spread ? steady_pad : all_lanes(0));
+        const Lanes4 backward = with_sign(pad, sign);
+        enter_scale = with_sign(1 / (speed + spread), sign);
+        leave_scale = with_sign(1 / max_lanes(speed - spread, spread), sign);
+        enter_offset = finite((o + backward) * enter_scale);
+        leave_offset = finite((o - backward) * leave_scale);
         // Reciprocals of such directions overflow. They are not seen in scenes; all boxes are visited.
-        const bool is_extreme = !(longest > 0x1p-100f && longest < 0x1p+100f);
-        const float spread = 16 * unit * longest;
-        const float reach = std::max(std::abs(scene.lo[main_axis] - ray.o[main_axis]),
-                                     std::abs(scene.hi[main_axis] - ray.o[main_axis]));
-        for (int axis = 0; axis < 3; ++axis) {
-            // -0 counts as negative, as its reciprocal does.
-            const bool negative = std::signbit(ray.d[axis]);
-            near_side[axis] = negative;
-            const float sign = negative ? -1.0f : 1.0f;
-            float enter = sign / (d[axis] + spread);
-            // An axis along which the ray hardly moves may never be left; there the padding is that of the
-            // farthest point the ray can reach.
-            const bool is_steady = d[axis] < 4 * spread;
-            float leave = sign / std::max(d[axis] - spread, spread);
-            float pad = 4 * unit * std::abs(ray.o[axis]);
-            if (is_steady) pad += 32 * unit * reach;
-            if (is_extreme) enter = leave = 0;
-            enter_scale[axis] = enter;
-            leave_scale[axis] = leave;
-            enter_offset[axis] = finite((ray.o[axis] + sign * pad) * enter);
-            leave_offset[axis] = is_extreme ? -largest : finite((ray.o[axis] - sign * pad) * leave);
+        if (!(longest > 0x1p-100f && longest < 0x1p+100f)) [[unlikely]] {
+            enter_scale = enter_offset = leave_scale = all_lanes(0);
+            leave_offset = all_lanes(-largest);
         }
     }
 
@@ -83,7 +84,14 @@ struct BoxRay {
   private:
     static constexpr float unit = 0x1p-24f;
     static constexpr float largest = std::numeric_limits<float>::max();
-    static float finite(float v) { return std::min(std::max(v, -largest), largest); }
+    static constexpr int sign_bit = std::numeric_limits<int>::min();
+
+    static IntLanes4 lane_bits(Lanes4 v) { return std::bit_cast<IntLanes4>(v); }
+    static Lanes4 magnitude(Lanes4 v) { return std::bit_cast<Lanes4>(lane_bits(v) & ~sign_bit); }
+    static Lanes4 with_sign(Lanes4 v, IntLanes4 sign) { return std::bit_cast<Lanes4>(lane_bits(v) ^ sign); }
+    static Lanes4 finite(Lanes4 v) {
+        return min_lanes(max_lanes(v, all_lanes(-largest)), all_lanes(largest));
+    }
 };
 
 } // namespace alhazen

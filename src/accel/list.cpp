@@ -16,7 +16,7 @@ std::span<const AccelBuilder> accel_builders() {
 
 std::span<const AccelWalk> accel_walks() {
     static const AccelWalk all[] = {
-        stack_walk(), guthe_walk(), stackless_walk(), cwbvh_walk(), shortstack_walk(),
+        stack_walk(), wide_walk(), guthe_walk(), stackless_walk(), cwbvh_walk(), shortstack_walk(),
     };
     return all;
 }

@@ -24,6 +24,8 @@ struct AccelBuilder {
 /// What a walk may be told.
 struct WalkOptions {
     int stack_entries = 8; ///< of the short stack, for walks that have one (1 ... 64)
+    /// For walks with kernels for several instruction sets: which to use; empty: the best this processor has.
+    std::string_view instructions = {};
 };
 
 /// A layout of trees in memory, and a walk through it.
@@ -43,6 +45,7 @@ AccelBuilder kdtree_builder();
 AccelBuilder ploc_builder();
 
 AccelWalk stack_walk();
+AccelWalk wide_walk();
 AccelWalk guthe_walk();
 AccelWalk stackless_walk();
 AccelWalk cwbvh_walk();

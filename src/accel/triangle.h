@@ -7,6 +7,7 @@
 #pragma once
 
 #include "accel/intersection.h"
+#include "base/lanes.h"
 #include "base/ray.h"
 
 namespace alhazen {
@@ -16,12 +17,22 @@ struct RayShear {
     int z;            ///< the axis along which the direction is longest
     float sx, sy, sz; ///< shear of the two axes after z, scale of z
 
-    explicit RayShear(const Ray& ray) : z(max_dimension(abs(ray.d))) {
-        int x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
-        sx = ray.d[x] / ray.d[z];
-        sy = ray.d[y] / ray.d[z];
-        sz = 1 / ray.d[z];
+    explicit RayShear(const Ray& ray) : z(longest_axis(ray.d)) {
+        const float d[5] = {ray.d.x, ray.d.y, ray.d.z, ray.d.x, ray.d.y};
+        const Lanes4 shear = Lanes4{d[z + 1], d[z + 2], 1, 1} / all_lanes(d[z]);
+        sx = shear[0];
+        sy = shear[1];
+        sz = shear[2];
     }
+    /// max_dimension without branches, which half of the rays would mispredict.
+    static int longest_axis(Vec3 d) {
+        const float x = std::abs(d.x), y = std::abs(d.y), z_length = std::abs(d.z);
+        const int y_or_x = 1 - static_cast<int>(x > y);
+        const int is_z = 1 - static_cast<int>(std::max(x, y) > z_length);
+        return is_z * 2 + (1 - is_z) * y_or_x;
+    }
+    /// Of a ray whose shear is known.
+    RayShear(int z_, float sx_, float sy_, float sz_) : z(z_), sx(sx_), sy(sy_), sz(sz_) {}
 };
 
 namespace triangle_detail {

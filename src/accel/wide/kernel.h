@@ -1,0 +1,94 @@
+/// What the production structure's kernels share with the rest: plain data and function pointers only.
+///
+/// Each kernel is one text compiled several times, for several instruction sets, and chosen at run time. Its
+/// files must not include headers with inline functions: the linker keeps one copy of those, and it could be
+/// the one a processor does not understand. So a kernel tests boxes, and sorts out which triangles of a leaf
+/// may be hit; the exact tests, and all that is done once a ray, are called through WideQuery, in code
+/// compiled for every processor.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace alhazen {
+
+/// Eight children, structure of arrays. A child without a primitive has an inverted box.
+struct alignas(64) WideNode {
+    float planes[3][2][8];  ///< axis; lower, upper; child
+    std::uint32_t child[8]; ///< references
+    std::uint8_t order[4]
+                      [3]; ///< for four octants of directions: 8 numbers of 3 bits, the farthest child first
+    std::uint8_t unused[20];
+};
+static_assert(sizeof(WideNode) == 256);
+
+/// References to nodes and leaves: 27 bits of address in units of 32 bytes, and for leaves how many
+/// primitives of which kind. A leaf of n triangles: nine arrays of n floats (corner a's x, y, z, then b's,
+/// then c's), then n primitive numbers. Another leaf: the numbers only.
+enum WideReference : std::uint32_t {
+    wide_leaf = 0x80000000u,
+    wide_custom = 0x40000000u,
+    wide_count_shift = 27, ///< three bits: primitives - 1
+    wide_address = 0x07ffffffu,
+    wide_done = 0xffffffffu, ///< at the bottom of every stack
+};
+enum : std::uint32_t {
+    wide_unit = 32,              ///< bytes
+    wide_filtered = 0x80000000u, ///< in primitive numbers: the hit must be accepted
+    wide_stack = 256,            ///< entries; layouts see to it that this is enough
+};
+
+/// One ray on its way, with all that is computed once a ray.
+struct alignas(64) WideSlot {
+    float enter_scale[4], enter_offset[4], leave_scale[4], leave_offset[4]; ///< see BoxRay
+    float origin[3];
+    float tmax;                  ///< where the search ends by now
+    float shear[3];              ///< see RayShear: x, y, z
+    std::uint32_t axis[3];       ///< which axis is the sheared x, y, z
+    std::uint32_t near_plane[3]; ///< where in a node the planes are through which the ray enters, bytes
+    std::uint32_t order;         ///< where in a node the octant's order is, bytes
+    std::uint32_t is_reversed;   ///< the order is to be read from its end
+    std::uint32_t ray;           ///< number in the batch
+    std::uint32_t next;          ///< reference to be visited
+    std::uint32_t height;        ///< of the stack
+    float t, u, v;               ///< nearest hit so far
+    std::uint32_t primitive;     ///< no_primitive: none
+    std::uint64_t nodes, leaves; ///< visited, where they are counted
+    std::uint32_t highest;       ///< of the stack, where it is counted
+    std::uint32_t reference[wide_stack];
+    float entry[wide_stack];
+};
+
+/// A question about some rays.
+struct WideQuery {
+    const char* base = nullptr; ///< of addresses
+    std::uint32_t root = 0;
+    std::uint32_t count = 0; ///< rays
+    void* owner = nullptr;
+    /// Prepares the slot for a ray; false when the ray can hit nothing.
+    bool (*start)(void* owner, WideSlot& slot, std::uint32_t ray) = nullptr;
+    /// Tests the leaf's primitives whose bits are set; true when the slot's hit and tmax have changed.
+    bool (*test)(void* owner, WideSlot& slot, std::uint32_t reference, std::uint32_t candidates) = nullptr;
+    /// Takes the slot's result.
+    void (*finish)(void* owner, const WideSlot& slot) = nullptr;
+};
+
+/// The kernels for one instruction set.
+struct WideKernels {
+    const char* name;
+    bool (*is_supported)();
+    void (*closest)(const WideQuery&); ///< many rays, interleaved
+    void (*any)(const WideQuery&);
+    void (*closest_one)(const WideQuery&); ///< the same, ray after ray
+    void (*any_one)(const WideQuery&);
+    void (*closest_counted)(const WideQuery&); ///< ray after ray, filling in what is counted
+    void (*any_counted)(const WideQuery&);
+};
+
+/// One a file; nullptr where the compiler knows no such instructions.
+const WideKernels* wide_kernels_plain();
+const WideKernels* wide_kernels_sse42();
+const WideKernels* wide_kernels_avx2();
+const WideKernels* wide_kernels_avx512();
+
+} // namespace alhazen

@@ -1,0 +1,190 @@
+#include "accel/wide/layout.h"
+
+#include <cstring>
+#include <numeric>
+#include <stdexcept>
+
+#include <sys/mman.h>
+
+#include "base/threads.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{2} << 20;
+// Kernels read whole registers, and fetch whole nodes ahead.
+constexpr std::size_t slack = 512;
+// Nodes without a box to be hit stay behind this: references to them are never followed but by rays that are
+// too extreme for box tests, which find no primitive there.
+constexpr std::uint32_t null_leaf = wide_leaf | wide_custom;
+
+constexpr std::size_t round_up(std::size_t n, std::size_t unit) {
+    return (n + unit - 1) / unit * unit;
+}
+
+constexpr std::size_t bytes_of_leaf(std::uint32_t count, bool is_custom) {
+    return round_up((is_custom ? 4 : 40) * std::size_t{count}, wide_unit);
+}
+
+// The different primitives of a run of the order: where primitives were split, two pieces may meet in a leaf
+// again.
+class UniqueRun {
+  public:
+    UniqueRun(const Tree& tree, const Primitives& primitives, const WideLeaf& leaf) {
+        for (std::uint32_t i = 0; i < leaf.count; ++i) {
+            const std::uint32_t p = tree.order[leaf.first + i];
+            if ((primitives.kind(p) == PrimitiveKind::custom) != leaf.is_custom) continue;
+            if (std::find(primitive_, primitive_ + count_, p) == primitive_ + count_)
+                primitive_[count_++] = p;
+        }
+    }
+    std::uint32_t count() const { return count_; }
+    std::uint32_t operator[](std::uint32_t i) const { return primitive_[i]; }
+
+  private:
+    std::uint32_t primitive_[Tree::max_leaf_size];
+    std::uint32_t count_ = 0;
+};
+
+// Where everything is written, decided before anything is written.
+class Placement {
+  public:
+    Placement(const Tree& tree, const Primitives& primitives, const CollapsedTree& collapsed)
+        : tree_(tree), primitives_(primitives), next_(wide_unit) {
+        root = collapsed.single_leaf.count > 0 ? place_leaf(collapsed.single_leaf) : wide_unit / wide_unit;
+        next_ = round_up(next_, alignof(WideNode));
+        if (collapsed.single_leaf.count == 0) root = reference_to(next_);
+        references.resize(collapsed.nodes.size());
+        at.resize(collapsed.nodes.size());
+        // A node's leaves follow it, so that they are fetched from the same page.
+        for (std::size_t i = 0; i < collapsed.nodes.size(); ++i) {
+            at[i] = next_ = round_up(next_, alignof(WideNode));
+            next_ += sizeof(WideNode);
+            for (std::size_t k = 0; k < static_cast<std::size_t>(collapsed.nodes[i].count); ++k)
+                if (collapsed.nodes[i].child[k].is_leaf())
+                    references[i][k] = place_leaf(collapsed.nodes[i].child[k].leaf);
+        }
+        for (std::size_t i = 0; i < collapsed.nodes.size(); ++i)
+            for (std::size_t k = 0; k < static_cast<std::size_t>(collapsed.nodes[i].count); ++k)
+                if (!collapsed.nodes[i].child[k].is_leaf())
+                    references[i][k] = reference_to(at[collapsed.nodes[i].child[k].node]);
+        if (next_ / wide_unit > wide_address)
+            throw std::length_error("an object of more than 4 GB of triangles");
+    }
+
+    std::size_t bytes() const { return next_; }
+    std::uint32_t root;
+    std::vector<std::array<std::uint32_t, 8>> references; // of the nodes' children
+    std::vector<std::size_t> at;                          // of the nodes
+
+  private:
+    static std::uint32_t reference_to(std::size_t address) {
+        return static_cast<std::uint32_t>(address / wide_unit);
+    }
+    std::uint32_t place_leaf(const WideLeaf& leaf) {
+        const std::uint32_t n = UniqueRun(tree_, primitives_, leaf).count();
+        const std::uint32_t reference = wide_leaf | (leaf.is_custom ? wide_custom : 0u) |
+                                        (n - 1) << wide_count_shift | reference_to(next_);
+        next_ += bytes_of_leaf(n, leaf.is_custom);
+        return reference;
+    }
+
+    const Tree& tree_;
+    const Primitives& primitives_;
+    std::size_t next_;
+};
+
+void write_leaf(char* at, const Tree& tree, const Primitives& primitives, const WideLeaf& leaf) {
+    const UniqueRun run(tree, primitives, leaf);
+    const std::uint32_t n = run.count();
+    auto* numbers = reinterpret_cast<std::uint32_t*>(at) + (leaf.is_custom ? 0u : 9 * n);
+    auto* coordinates = reinterpret_cast<float*>(at);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        numbers[i] = run[i];
+        if (leaf.is_custom) continue;
+        if (primitives.kind(run[i]) == PrimitiveKind::filtered_triangle) numbers[i] |= wide_filtered;
+        const Corners t = primitives.corners(run[i]);
+        const Vec3 corner[3] = {t.a, t.b, t.c};
+        for (std::uint32_t c = 0; c < 3; ++c)
+            for (std::uint32_t axis = 0; axis < 3; ++axis)
+                coordinates[(3 * c + axis) * n + i] = corner[c][static_cast<int>(axis)];
+    }
+}
+
+// In which order a ray of each of four octants of directions meets the children, farthest first; the other
+// four meet them the other way round. Octants: y and z backwards or not, x forwards.
+void write_orders(WideNode& node, const CollapsedNode& from) {
+    for (std::uint32_t octant = 0; octant < 4; ++octant) {
+        const Vec3 direction{1, octant & 1 ? -1.0f : 1.0f, octant & 2 ? -1.0f : 1.0f};
+        std::array<float, 8> distance;
+        distance.fill(-infinity);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(from.count); ++k) {
+            const Bounds3& b = from.child[k].bounds;
+            distance[k] = dot(direction, b.lo * 0.5f + b.hi * 0.5f);
+        }
+        std::array<std::uint32_t, 8> place;
+        std::iota(place.begin(), place.end(), 0u);
+        std::stable_sort(place.begin(), place.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return distance[a] > distance[b]; });
+        std::uint32_t bits = 0;
+        for (std::uint32_t i = 0; i < 8; ++i) bits |= place[i] << (3 * i);
+        for (std::uint32_t byte = 0; byte < 3; ++byte)
+            node.order[octant][byte] = static_cast<std::uint8_t>(bits >> (8 * byte));
+    }
+}
+
+void write_node(WideNode& node, const CollapsedNode& from, const std::array<std::uint32_t, 8>& references) {
+    constexpr float nowhere = std::numeric_limits<float>::max();
+    for (std::size_t k = 0; k < 8; ++k) {
+        const bool is_used = k < static_cast<std::size_t>(from.count);
+        node.child[k] = is_used ? references[k] : null_leaf;
+        for (int axis = 0; axis < 3; ++axis) {
+            node.planes[axis][0][k] = is_used ? from.child[k].bounds.lo[axis] : nowhere;
+            node.planes[axis][1][k] = is_used ? from.child[k].bounds.hi[axis] : -nowhere;
+        }
+    }
+    write_orders(node, from);
+}
+
+} // namespace
+
+WideLayout::WideLayout(const Tree& tree, const Primitives& primitives) {
+    if (tree.nodes.empty()) return;
+    const CollapsedTree collapsed = collapse(tree, primitives, wide_costs, wide_stack - 8);
+    const Placement placement(tree, primitives, collapsed);
+    allocate(placement.bytes());
+    root_ = placement.root;
+    nodes_ = collapsed.nodes.size();
+    depth_ = collapsed.depth;
+    cost_ = collapsed.cost;
+    auto address = [&](std::uint32_t reference) {
+        return memory_.get() + static_cast<std::size_t>(reference & wide_address) * wide_unit;
+    };
+    *reinterpret_cast<std::uint32_t*>(address(null_leaf)) = no_primitive;
+    if (collapsed.single_leaf.count > 0) write_leaf(address(root_), tree, primitives, collapsed.single_leaf);
+    parallel_for(collapsed.nodes.size(), 512, [&](std::size_t i) {
+        const CollapsedNode& from = collapsed.nodes[i];
+        write_node(*new (memory_.get() + placement.at[i]) WideNode, from, placement.references[i]);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(from.count); ++k)
+            if (from.child[k].is_leaf())
+                write_leaf(address(placement.references[i][k]), tree, primitives, from.child[k].leaf);
+    });
+}
+
+void WideLayout::allocate(std::size_t bytes) {
+    bytes_ = bytes;
+    // Small structures do not take a huge page each.
+    const bool is_large = bytes > huge_page;
+    const std::size_t alignment = is_large ? huge_page : alignof(WideNode);
+    const std::size_t size = round_up(bytes + slack, alignment);
+    memory_.reset(static_cast<char*>(std::aligned_alloc(alignment, size)));
+    if (!memory_) throw std::bad_alloc();
+    // Rays jump all over the block: without huge pages much of their time goes into address translation.
+    if (is_large) madvise(memory_.get(), size, MADV_HUGEPAGE);
+    // What is between leaves and behind them is read, though not used.
+    if (!is_large) std::memset(memory_.get(), 0, size);
+    if (is_large) std::memset(memory_.get() + size - slack, 0, slack);
+}
+
+} // namespace alhazen

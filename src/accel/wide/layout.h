@@ -1,0 +1,44 @@
+/// The production structure in memory: nodes of eight children and the leaves' triangles, in one block.
+#pragma once
+
+#include <cstdlib>
+#include <memory>
+
+#include "accel/structure.h"
+#include "accel/wide/collapse.h"
+#include "accel/wide/kernel.h"
+
+namespace alhazen {
+
+/// Immutable once built. Needs nothing of the primitives any more, but their tests for those that are not
+/// plain triangles.
+class WideLayout {
+  public:
+    WideLayout() = default;
+    /// The tree's bounds and leaves; throws std::length_error when they need more than 4 GB.
+    WideLayout(const Tree& tree, const Primitives& primitives);
+
+    const char* base() const { return memory_.get(); }
+    /// The root's reference; wide_done when there is nothing.
+    std::uint32_t root() const { return root_; }
+    LayoutStats stats() const { return {nodes_, depth_, bytes_}; }
+    /// Expected cost of a ray in node visits, by the model by which the tree was collapsed.
+    double cost() const { return cost_; }
+
+  private:
+    struct Free {
+        void operator()(char* p) const { std::free(p); } // from std::aligned_alloc
+    };
+    void allocate(std::size_t bytes);
+
+    std::unique_ptr<char, Free> memory_;
+    std::uint32_t root_ = wide_done;
+    std::size_t nodes_ = 0, bytes_ = 0;
+    int depth_ = 0;
+    double cost_ = 0;
+};
+
+/// Costs measured with benchmarks/accel on rays of all kinds: see docs/performance.md.
+inline constexpr CollapseCosts wide_costs{};
+
+} // namespace alhazen
