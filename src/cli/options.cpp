@@ -48,6 +48,12 @@ void read_crop(const std::string& text, RenderSettings& settings) {
     settings.crop = Rect2i{{n[0], n[1]}, {n[2], n[3]}};
 }
 
+void read_accel(const std::string& text, RenderSettings& settings) {
+    std::string error;
+    settings.accel = parse_accel(text, error);
+    if (!settings.accel) throw CLI::ValidationError("--accel", error);
+}
+
 } // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
@@ -67,6 +73,14 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--camera", s.camera, "use the camera of this name")->type_name("NAME");
     command.add_option("--seed", s.seed, "seed of the random numbers")
         ->check(CLI::NonNegativeNumber)
+        ->type_name("N");
+    command
+        .add_option_function<std::string>(
+            "--accel", [&s](const std::string& text) { read_accel(text, s); },
+            "acceleration structure, e.g. lbvh/stackless (alhazen help accelerator)")
+        ->type_name("BUILDER/WALK");
+    command.add_option("--stack-entries", s.stack_entries, "of the walk with a short stack")
+        ->check(CLI::Range(1, 64))
         ->type_name("N");
     command.add_option("--threads", s.threads, "how many threads (default: all)")
         ->check(CLI::Range(0, 4096))

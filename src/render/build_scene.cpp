@@ -13,8 +13,9 @@ namespace {
 
 class SceneBuilder {
   public:
-    SceneBuilder(SceneDescription& description, const MaterialSet& materials, BuildContext& context)
-        : description_(description), materials_(materials), context_(context) {}
+    SceneBuilder(SceneDescription& description, const MaterialSet& materials, const AccelChoice& accel,
+                 BuildContext& context)
+        : description_(description), materials_(materials), accel_(accel), context_(context) {}
 
     std::unique_ptr<Scene> build() {
         build_lights();
@@ -88,7 +89,7 @@ class SceneBuilder {
             placed.number = instance_count_++;
             if (placed.object && !placed.object->bounds().empty()) instances.push_back(placed);
         }
-        return std::make_unique<Object>(make_shapes(node), std::move(instances));
+        return std::make_unique<Object>(make_shapes(node), std::move(instances), accel_);
     }
 
     // Shapes load in parallel; messages and lights keep the order of the file.
@@ -145,6 +146,7 @@ class SceneBuilder {
 
     SceneDescription& description_;
     const MaterialSet& materials_;
+    const AccelChoice& accel_;
     BuildContext& context_;
     std::vector<std::unique_ptr<Light>> lights_;
     std::vector<std::unique_ptr<Object>> objects_;
@@ -156,8 +158,8 @@ class SceneBuilder {
 } // namespace
 
 std::unique_ptr<Scene> build_scene(SceneDescription& description, const MaterialSet& materials,
-                                   BuildContext& context) {
-    return SceneBuilder(description, materials, context).build();
+                                   const AccelChoice& accel, BuildContext& context) {
+    return SceneBuilder(description, materials, accel, context).build();
 }
 
 } // namespace alhazen

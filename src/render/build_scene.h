@@ -9,9 +9,9 @@
 
 namespace alhazen {
 
-/// context.textures and .materials must be set; materials are those of description, in its order. Returns
-/// nullptr when errors were added to context.messages.
+/// context.textures and .materials must be set; materials are those of description, in its order. Every
+/// object gets a structure as accel says. Returns nullptr when errors were added to context.messages.
 std::unique_ptr<Scene> build_scene(SceneDescription& description, const MaterialSet& materials,
-                                   BuildContext& context);
+                                   const AccelChoice& accel, BuildContext& context);
 
 } // namespace alhazen

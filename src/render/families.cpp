@@ -7,6 +7,7 @@
 #include "lights/area_light.h"
 #include "lights/light.h"
 #include "materials/material.h"
+#include "render/accelerator.h"
 #include "samplers/sampler.h"
 #include "shapes/shape.h"
 #include "textures/texture_set.h"
@@ -36,6 +37,8 @@ const std::vector<FamilyInfo>& families() {
         {"filter", "PixelFilter", "How far around a pixel its samples lie, and how they count.",
          docs_of(&filter_kinds)},
         {"sampler", "Sampler", "Where the random numbers come from.", docs_of(&sampler_kinds)},
+        {"accelerator", "Accelerator", "How the scene is arranged so that rays find what they meet.",
+         docs_of(&accelerator_kinds)},
         {"shape", "Shape", "Surfaces.", docs_of(&shape_kinds)},
         {"material", "Material", "What surfaces do to light.", docs_of(&material_kinds)},
         {"float-texture", "Texture \"name\" \"float\"", "Numbers that vary over surfaces.",

@@ -43,6 +43,7 @@ Target find_target(SceneDescription& scene, const std::string& path) {
         if (family == "film") return {&scene.film, family};
         if (family == "sampler") return {&scene.sampler, family};
         if (family == "filter") return {&scene.filter, family};
+        if (family == "accelerator") return {&scene.accelerator, family};
         if (family == "camera" && !scene.cameras.empty()) return {&scene.cameras.back().node, family};
         return {};
     }
@@ -65,6 +66,7 @@ std::string default_type(const std::string& family) {
     if (family == "integrator") return "path";
     if (family == "film") return "rgb";
     if (family == "sampler") return "zsobol";
+    if (family == "accelerator") return "bvh";
     return "gaussian";
 }
 
@@ -136,10 +138,10 @@ void apply_override(SceneDescription& scene, const std::string& text, Messages& 
 
     Target target = find_target(scene, path);
     if (!target.node)
-        return fail(
-            fmt::format("the scene has no \"{}\"; one can set integrator, camera, film, filter, sampler, "
-                        "material.NAME, texture.NAME, light.NUMBER, area-light.NUMBER, shape.NUMBER",
-                        path));
+        return fail(fmt::format(
+            "the scene has no \"{}\"; one can set integrator, camera, film, filter, sampler, "
+            "accelerator, material.NAME, texture.NAME, light.NUMBER, area-light.NUMBER, shape.NUMBER",
+            path));
     if (target.node->type.empty()) target.node->type = default_type(target.family);
     auto doc = find_doc(target.family, target.node->type);
     if (!doc) return; // the unknown type is reported when the scene is built

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "accel/accel.h"
 #include "base/bounds.h"
 #include "color/wavelengths.h"
 
@@ -19,9 +20,11 @@ struct RenderSettings {
     std::string integrator;     ///< replaces the scene's, which keeps the parameters both know
     std::string camera;         ///< by name
     std::optional<std::uint64_t> seed;
-    int threads = 0;                ///< 0: all
-    std::optional<ColorMode> color; ///< default: spectral, but rgb for integrators that are defined in it
-    int tile_size = 16;             ///< pixels; does not change the image
+    std::optional<AccelChoice> accel; ///< does not change the image
+    std::optional<int> stack_entries; ///< of the walk with a short stack (1 ... 64)
+    int threads = 0;                  ///< 0: all
+    std::optional<ColorMode> color;   ///< default: spectral, but rgb for integrators that are defined in it
+    int tile_size = 16;               ///< pixels; does not change the image
     /// "integrator.maxdepth=3", "material.Floor.reflectance=.5 .4 .3"
     std::vector<std::string> overrides;
 };

@@ -4,6 +4,7 @@
 
 #include "base/threads.h"
 #include "formats/ply.h"
+#include "render/accelerator.h"
 #include "render/build_scene.h"
 
 namespace alhazen {
@@ -97,6 +98,16 @@ std::uint64_t find_seed(const SceneDescription& description, const RenderSetting
     return 0;
 }
 
+AccelChoice choose_accel(const SceneDescription& description, const RenderSettings& settings,
+                         BuildContext& context) {
+    auto accelerator = accelerator_kinds().make(with_default(description.accelerator, "bvh"), context, "bvh");
+    AccelChoice choice = accelerator ? accelerator->choice : AccelChoice{};
+    int entries = settings.stack_entries.value_or(choice.walk_options.stack_entries);
+    if (settings.accel) choice = *settings.accel;
+    choice.walk_options.stack_entries = entries;
+    return choice;
+}
+
 void choose_color_mode(World& world, const RenderSettings& settings, Messages& messages) {
     if (world.integrator && world.integrator->works_in_rgb()) {
         world.mode = ColorMode::rgb;
@@ -157,7 +168,8 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     context.materials = &world->materials;
     for (const TextureNode& medium : description.media)
         messages.add_unsupported(medium.node.place, "participating media are not supported yet", "vacuum");
-    world->scene = build_scene(description, world->materials, context);
+    world->scene =
+        build_scene(description, world->materials, choose_accel(description, settings, context), context);
     world->textures.forget_images();
     messages.throw_if_errors();
     world->scene->set_light_chooser(world->integrator->light_sampler());

@@ -89,8 +89,10 @@ bool Object::alpha_passes(const Ray& ray, const Primitive& primitive, const Inte
 /// Instances are searched from within the search outside: what is met there becomes the ray's find.
 class Object::ClosestTests final : public PrimitiveTests {
   public:
-    ClosestTests(const Object& object, std::span<Found> found, std::size_t depth)
-        : object_(object), found_(found), depth_(depth) {}
+    /// counts: where what is visited inside instances is added, or none.
+    ClosestTests(const Object& object, std::span<Found> found, std::size_t depth,
+                 WalkCounts* counts = nullptr)
+        : object_(object), found_(found), depth_(depth), counts_(counts) {}
 
     bool intersect(const Question& q, Intersection& hit) override {
         const Primitive& primitive = object_.primitives_[q.primitive];
@@ -112,6 +114,7 @@ class Object::ClosestTests final : public PrimitiveTests {
         Found inner;
         inner.instances = found.instances;
         inner.instances[depth_] = &instance;
+        if (counts_) instance.object->count(Query::closest, local, *counts_);
         instance.object->closest_nested(local, inner, depth_ + 1);
         hit.t = inner.hit.t + shift;
         if (!inner.object || !q.would_win(hit.t)) return false;
@@ -122,11 +125,13 @@ class Object::ClosestTests final : public PrimitiveTests {
     const Object& object_;
     std::span<Found> found_;
     std::size_t depth_;
+    WalkCounts* counts_;
 };
 
 class Object::AnyTests final : public PrimitiveTests {
   public:
-    explicit AnyTests(const Object& object) : object_(object) {}
+    explicit AnyTests(const Object& object, WalkCounts* counts = nullptr)
+        : object_(object), counts_(counts) {}
 
     bool intersect(const Question& q, Intersection& hit) override {
         const Primitive& primitive = object_.primitives_[q.primitive];
@@ -134,7 +139,9 @@ class Object::AnyTests final : public PrimitiveTests {
             const PlacedObject& instance = object_.instances_[primitive.primitive];
             float shift = 0;
             hit.t = 0;
-            return instance.object->any(ray_into(instance, q.ray, shift));
+            Ray local = ray_into(instance, q.ray, shift);
+            return counts_ ? instance.object->count(Query::any, local, *counts_)
+                           : instance.object->any(local);
         }
         const Leaf& leaf = object_.leaves_[primitive.shape];
         return !leaf.is_interface && leaf.shape->intersect(q.ray, primitive.primitive, hit) &&
@@ -148,6 +155,7 @@ class Object::AnyTests final : public PrimitiveTests {
 
   private:
     const Object& object_;
+    WalkCounts* counts_;
 };
 
 void Object::closest(const Ray& ray, Found& found) const {
@@ -185,6 +193,16 @@ bool Object::any(const Ray& ray) const {
 void Object::any(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
     AnyTests tests(*this);
     structure_->any(rays, blocked, tests);
+}
+
+bool Object::count(Query query, const Ray& ray, WalkCounts& counts) const {
+    if (query == Query::any) {
+        AnyTests tests(*this, &counts);
+        return structure_->count(query, ray, tests, counts);
+    }
+    Found found;
+    ClosestTests tests(*this, {&found, 1}, 0, &counts);
+    return structure_->count(query, ray, tests, counts);
 }
 
 Hit Object::surface(const Found& found) {

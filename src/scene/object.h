@@ -53,6 +53,9 @@ class Object final : public Primitives {
     /// The same for many rays at once: found as constructed, blocked set to 0 or 1.
     void closest(std::span<const Ray> rays, std::span<Found> found) const;
     void any(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+    /// Walks as closest or any would, into instances too, and adds what was visited. True when there is a
+    /// hit.
+    bool count(Query query, const Ray& ray, WalkCounts& counts) const;
     /// The full hit, in world space.
     static Hit surface(const Found& found);
 
@@ -60,6 +63,8 @@ class Object final : public Primitives {
     const std::vector<PlacedShape>& shapes() const { return shapes_; }
     const std::vector<PlacedObject>& instances() const { return instances_; }
     const Structure& structure() const { return *structure_; }
+    /// Builds another structure over the same things; for measurements. Nobody may be asking meanwhile.
+    void rebuild(const AccelChoice& accel) { structure_ = make_structure(*this, accel); }
     std::size_t primitive_count() const { return primitives_.size(); }
     /// How deep instances are nested to get out of the innermost: 1 without instances.
     std::size_t height() const { return height_; }

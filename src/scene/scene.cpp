@@ -17,6 +17,11 @@ void Scene::set_light_chooser(std::string_view name) {
     chooser_ = make_light_chooser(name, lights_);
 }
 
+// In any order: the objects' own boxes stay as they are.
+void Scene::rebuild(const AccelChoice& accel) {
+    for (auto& object : objects_) object->rebuild(accel);
+}
+
 std::optional<Hit> Scene::closest(const Ray& ray) const {
     Found found;
     root_->closest(ray, found);
@@ -34,7 +39,9 @@ SceneCounts Scene::counts() const {
     for (const auto& object : objects_) {
         counts.shapes += object->shapes().size();
         counts.instances += object->instances().size();
-        counts.accel_bytes += object->structure().stats().bytes;
+        LayoutStats stats = object->structure().stats();
+        counts.accel_bytes += stats.bytes;
+        counts.accel_nodes += stats.nodes;
         for (const PlacedShape& placed : object->shapes()) {
             counts.shape_bytes += placed.shape->bytes();
             counts.primitives += placed.shape->primitive_count();

@@ -16,7 +16,7 @@ namespace alhazen {
 /// What is in a scene, counted.
 struct SceneCounts {
     std::size_t shapes = 0, primitives = 0, triangles = 0, instances = 0, objects = 0;
-    std::size_t accel_bytes = 0, shape_bytes = 0;
+    std::size_t accel_bytes = 0, accel_nodes = 0, shape_bytes = 0;
 };
 
 class Scene {
@@ -43,6 +43,11 @@ class Scene {
     float light_probability(const LightReceiver& at, const Light* light) const {
         return chooser_->probability(at, light);
     }
+
+    /// What is in the scene itself, instances among it.
+    const Object& root() const { return *root_; }
+    /// Builds another structure for each object; for measurements. Nobody may be asking meanwhile.
+    void rebuild(const AccelChoice& accel);
 
     const Bounds3& bounds() const { return bounds_; }
     SceneCounts counts() const;
