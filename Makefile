@@ -13,7 +13,7 @@ PREFIX ?= /usr/local
 # For make sanitize, tsan: which tests, as ctest takes it (TESTS="-LE slow").
 TESTS ?=
 
-.PHONY: all render program build test check format sanitize tsan coverage tidy clang install clean
+.PHONY: all render program build test check format sanitize tsan coverage tidy clang bench install clean
 .NOTPARALLEL:
 
 all: render
@@ -77,6 +77,15 @@ tidy:
 	@tools/install_packages build clang tidy
 	@test -f build-tidy/build.ninja || cmake --preset tidy
 	run-clang-tidy-16 -quiet -p build-tidy '/src/.*\.cpp$$'
+
+# A short set; see benchmarks/accel. BENCH="--mesh hair --repeat 9" for others.
+BENCH ?= --short --rays 50000 scenes/materials.pbrt --json bench.json
+bench:
+	@tools/install_packages build bench
+	@test -f build/build.ninja || cmake --preset release -DALHAZEN_TESTS=OFF
+	@cmake -S . -B build >/dev/null
+	@cmake --build --preset release --target bench_accel
+	build/bin/bench_accel $(BENCH)
 
 install: program
 	@cmake --build --preset release --target alhazen_library

@@ -20,6 +20,7 @@ using Action = std::function<int()>;
 
 void add_render_command(CLI::App& app, Action& action);
 void add_info_command(CLI::App& app, Action& action);
+void add_accel_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_diff_command(CLI::App& app, Action& action);
 void add_help_command(CLI::App& app, Action& action);

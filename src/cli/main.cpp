@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     Action action;
     add_render_command(app, action);
     add_info_command(app, action);
+    add_accel_command(app, action);
     add_convert_command(app, action);
     add_diff_command(app, action);
     add_help_command(app, action);

@@ -80,8 +80,8 @@ TEST_F(Commands, DiffPrintsEveryMetricAndJudges) {
 
 TEST_F(Commands, HelpExplainsEverythingRegistered) {
     Outcome all = alhazen("help");
-    for (const char* family : {"integrator", "camera", "film", "filter", "sampler", "shape", "material",
-                               "float-texture", "spectrum-texture", "light", "area-light"}) {
+    for (const char* family : {"integrator", "camera", "film", "filter", "sampler", "accelerator", "shape",
+                               "material", "float-texture", "spectrum-texture", "light", "area-light"}) {
         EXPECT_THAT(all.out, HasSubstr(family));
         Outcome list = alhazen(std::string("help ") + family);
         EXPECT_EQ(list.exit_code, 0);
@@ -109,7 +109,7 @@ TEST_F(Commands, TheReferencePagesInDocsAreUpToDate) {
 TEST_F(Commands, HelpAndVersionAreShort) {
     Outcome o = alhazen("--help");
     EXPECT_EQ(o.exit_code, 0);
-    for (const char* command : {"render", "info", "convert", "diff", "help"}) {
+    for (const char* command : {"render", "info", "accel", "convert", "diff", "help"}) {
         EXPECT_THAT(o.out, HasSubstr(command));
         Outcome help = alhazen(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0);

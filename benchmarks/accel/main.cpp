@@ -1,0 +1,94 @@
+/// bench_accel: acceleration structures against Embree on generated meshes and on scene files. See docs/contributing.md.
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "base/threads.h"
+#include "benchmarks/accel/meshes.h"
+#include "benchmarks/accel/suite.h"
+#include "formats/format.h"
+
+namespace alhazen::bench {
+namespace {
+
+struct Arguments {
+    BenchOptions options;
+    std::vector<std::string> meshes, files, structures, parts;
+    std::string json;
+    bool is_short = false;
+
+    bool wants(std::string_view part) const {
+        return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
+    }
+};
+
+Arguments parse(CLI::App& app, int argc, char** argv) {
+    Arguments a;
+    app.add_option("FILE", a.files, "scene files to measure as well (.pbrt)");
+    app.add_option("--mesh", a.meshes, "generated meshes by name (default: all of the set)")->delimiter(',');
+    app.add_option("--structure", a.structures, "BUILDER/WALK (default: what pictures are rendered with)")
+        ->delimiter(',');
+    app.add_option("--part", a.parts, "walking, building, rendering (default: all)")->delimiter(',');
+    app.add_option("--rays", a.options.lab.rays.rays, "of each kind");
+    app.add_option("--repeat", a.options.lab.repeat, "times everything is timed");
+    app.add_option("--threads", a.options.lab.threads, "for walking");
+    app.add_option("--spp", a.options.spp, "samples per pixel of renders");
+    app.add_option("--json", a.json, "write all records");
+    app.add_flag("--short", a.is_short, "a set that takes a few minutes");
+    app.parse(argc, argv);
+    if (a.structures.empty()) a.options.structures = {AccelChoice{}};
+    for (const std::string& text : a.structures) {
+        std::string error;
+        auto choice = parse_accel(text, error);
+        if (!choice) throw CLI::ValidationError("--structure", error);
+        a.options.structures.push_back(*choice);
+    }
+    return a;
+}
+
+void bench_world(SceneDescription description, const std::string& name, const Arguments& a, Json& json) {
+    Messages messages;
+    messages.lenient = true;
+    auto world = build_world(std::move(description), {}, messages);
+    auto append = [&](const char* part, Json records) {
+        for (Json& record : records) json[part].push_back(std::move(record));
+    };
+    if (a.wants("walking")) append("walking", bench_walking(*world, name, a.options));
+    if (a.wants("building")) append("building", bench_building(*world, name, a.options));
+    std::fflush(stdout);
+}
+
+int run(const Arguments& a) {
+    Json json{{"walking", Json::array()}, {"building", Json::array()}, {"rendering", Json::array()}};
+    for (const GeneratedScene& scene : generated_scenes()) {
+        bool named = std::find(a.meshes.begin(), a.meshes.end(), scene.name) != a.meshes.end();
+        if (a.meshes.empty() ? a.is_short && !scene.is_short : !named) continue;
+        bench_world(scene.make(), scene.name, a, json);
+    }
+    for (const std::string& file : a.files) {
+        Messages messages;
+        messages.lenient = true;
+        bench_world(read_scene(file, messages), file, a, json);
+        if (!a.wants("rendering")) continue;
+        for (Json& record : bench_rendering(file, a.options)) json["rendering"].push_back(std::move(record));
+    }
+    if (!a.json.empty()) write_file(a.json, json.dump(2) + "\n");
+    return 0;
+}
+
+} // namespace
+} // namespace alhazen::bench
+
+int main(int argc, char** argv) {
+    CLI::App app("Measures acceleration structures.", "bench_accel");
+    try {
+        return alhazen::bench::run(alhazen::bench::parse(app, argc, argv));
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e);
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "bench_accel: {}\n", e.what());
+        return 2;
+    }
+}

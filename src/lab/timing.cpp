@@ -1,0 +1,34 @@
+#include "lab/timing.h"
+
+#include <algorithm>
+
+#include <time.h>
+
+namespace alhazen {
+
+double seconds_of(int threads, const std::function<void()>& work) {
+    clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
+    timespec start{}, end{};
+    clock_gettime(clock, &start);
+    work();
+    clock_gettime(clock, &end);
+    double seconds = static_cast<double>(end.tv_sec - start.tv_sec);
+    // Never 0: others divide by it.
+    return std::max(seconds + 1e-9 * static_cast<double>(end.tv_nsec - start.tv_nsec), 1e-9);
+}
+
+double median_of(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    std::size_t half = values.size() / 2;
+    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+double spread_of(const std::vector<double>& values) {
+    double median = median_of(values);
+    if (!(median > 0)) return 0;
+    auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return (*most - *least) / median;
+}
+
+} // namespace alhazen

@@ -1,0 +1,18 @@
+/// Seconds, and what to make of several measurements of the same thing.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace alhazen {
+
+/// How long work takes. On one thread: the processor time of this thread, so that other programs' turns do
+/// not count; else, by the wall clock.
+double seconds_of(int threads, const std::function<void()>& work);
+
+/// The middle of the values, or the mean of the two in the middle; 0 for none.
+double median_of(std::vector<double> values);
+/// (largest - smallest) / median: how far to trust it; 0 for none.
+double spread_of(const std::vector<double>& values);
+
+} // namespace alhazen
