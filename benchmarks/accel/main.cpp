@@ -1,5 +1,8 @@
 /// bench_accel: acceleration structures against Embree on generated meshes and on scene files. See docs/contributing.md.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <map>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,7 +19,7 @@ namespace {
 struct Arguments {
     BenchOptions options;
     std::vector<std::string> meshes, files, structures, parts;
-    std::string json;
+    std::string json, instructions;
     bool is_short = false;
 
     bool wants(std::string_view part) const {
@@ -24,8 +27,7 @@ struct Arguments {
     }
 };
 
-Arguments parse(CLI::App& app, int argc, char** argv) {
-    Arguments a;
+void parse(CLI::App& app, int argc, char** argv, Arguments& a) {
     app.add_option("FILE", a.files, "scene files to measure as well (.pbrt)");
     app.add_option("--mesh", a.meshes, "generated meshes by name (default: all of the set)")->delimiter(',');
     app.add_option("--structure", a.structures, "BUILDER/WALK (default: what pictures are rendered with)")
@@ -33,6 +35,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
     app.add_option("--part", a.parts, "walking, building, rendering (default: all)")->delimiter(',');
     app.add_option("--rays", a.options.lab.rays.rays, "of each kind");
     app.add_option("--repeat", a.options.lab.repeat, "times everything is timed");
+    app.add_option("--instructions", a.instructions, "plain, sse42, avx2 or avx512 where a walk has the choice");
     app.add_option("--threads", a.options.lab.threads, "for walking");
     app.add_option("--spp", a.options.spp, "samples per pixel of renders");
     app.add_option("--json", a.json, "write all records");
@@ -45,7 +48,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
         if (!choice) throw CLI::ValidationError("--structure", error);
         a.options.structures.push_back(*choice);
     }
-    return a;
+    for (AccelChoice& choice : a.options.structures) choice.walk_options.instructions = a.instructions;
 }
 
 void bench_world(SceneDescription description, const std::string& name, const Arguments& a, Json& json) {
@@ -58,6 +61,25 @@ void bench_world(SceneDescription description, const std::string& name, const Ar
     if (a.wants("walking")) append("walking", bench_walking(*world, name, a.options));
     if (a.wants("building")) append("building", bench_building(*world, name, a.options));
     std::fflush(stdout);
+}
+
+// Geometric means of the ratios over all scenes, and the worst.
+void print_means(const Json& records) {
+    std::map<std::string, std::vector<double>> ratios;
+    for (const Json& r : records) {
+        if (r["embree_ratio"].is_null()) continue;
+        auto text = [&](const char* key) { return r[key].get<std::string>(); };
+        ratios[fmt::format("{}/{:<12} {:<8} {:<8} {}", text("builder"), text("walk"), text("rays"), text("query"),
+                           text("mode"))]
+            .push_back(r["embree_ratio"].get<double>());
+    }
+    if (!ratios.empty()) fmt::print("\nOver all scenes, times Embree: geometric mean, least\n");
+    for (const auto& [what, values] : ratios) {
+        double sum = 0;
+        for (double v : values) sum += std::log(v);
+        fmt::print("  {:<46}{:>6.2f}{:>6.2f}\n", what, std::exp(sum / static_cast<double>(values.size())),
+                   *std::min_element(values.begin(), values.end()));
+    }
 }
 
 int run(const Arguments& a) {
@@ -74,6 +96,7 @@ int run(const Arguments& a) {
         if (!a.wants("rendering")) continue;
         for (Json& record : bench_rendering(file, a.options)) json["rendering"].push_back(std::move(record));
     }
+    print_means(json["walking"]);
     if (!a.json.empty()) write_file(a.json, json.dump(2) + "\n");
     return 0;
 }
@@ -84,7 +107,9 @@ int run(const Arguments& a) {
 int main(int argc, char** argv) {
     CLI::App app("Measures acceleration structures.", "bench_accel");
     try {
-        return alhazen::bench::run(alhazen::bench::parse(app, argc, argv));
+        alhazen::bench::Arguments arguments;
+        alhazen::bench::parse(app, argc, argv, arguments);
+        return alhazen::bench::run(arguments);
     } catch (const CLI::ParseError& e) {
         return app.exit(e);
     } catch (const std::exception& e) {

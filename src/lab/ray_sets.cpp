@@ -14,6 +14,9 @@ constexpr int tile = 8;
 constexpr int bounces = 3;
 /// Length of ambient occlusion rays over the median distance from the camera to what it sees.
 constexpr float ao_length = 0.2f;
+/// Rays start so many times farther off the surface than our own rounding needs: the peer rounds in another
+/// way and would meet the surface again.
+constexpr float clearance = 32;
 
 class RaySetMaker {
   public:
@@ -46,7 +49,10 @@ class RaySetMaker {
     std::vector<Ray> make_bounce(const std::vector<Ray>& rays) {
         std::vector<Hit> hits;
         for (const Ray& ray : rays)
-            if (auto hit = world_.scene->closest(ray)) hits.push_back(*hit);
+            if (auto hit = world_.scene->closest(ray)) {
+                hit->p_error *= clearance;
+                hits.push_back(*hit);
+            }
         if (hits.empty()) return {};
         if (ao_distance_ == 0) ao_distance_ = ao_length * median_distance(hits);
         std::vector<Ray> next;
