@@ -13,7 +13,7 @@ namespace alhazen {
 /// afterwards.
 struct AccelChoice {
     std::string builder = "sah";
-    std::string walk = "stack";
+    std::string walk = "wide";
     WalkOptions walk_options;
 
     std::string name() const { return builder + "/" + walk; }

@@ -4,12 +4,7 @@ namespace alhazen {
 
 std::span<const AccelBuilder> accel_builders() {
     static const AccelBuilder all[] = {
-        sah_builder(),
-        sbvh_builder(),
-        lbvh_builder(),
-        octree_builder(),
-        kdtree_builder(),
-        ploc_builder(),
+        sah_builder(), sbvh_builder(), lbvh_builder(), octree_builder(), kdtree_builder(), ploc_builder(),
     };
     return all;
 }

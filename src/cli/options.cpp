@@ -89,6 +89,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         ->check(CLI::Range(1, 4096))
         ->type_name("N");
     command
+        .add_option("--in-flight", s.paths_in_flight,
+                    "paths a thread follows at a time (1: each ray is traced alone)")
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N");
+    command
         .add_option_function<std::string>(
             "--color", [&s](const std::string& mode) { s.color = find_color_mode(mode); },
             "compute in sampled wavelengths or in RGB")

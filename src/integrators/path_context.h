@@ -2,11 +2,12 @@
 /// rays.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <optional>
 
 #include "base/arena.h"
 #include "color/wavelengths.h"
+#include "integrators/ray_queue.h"
 #include "integrators/task.h"
 #include "samplers/sampler.h"
 #include "scene/scene.h"
@@ -27,9 +28,12 @@ struct RayCounts {
 
 class PathContext {
   public:
+    /// With a queue the path suspends for each ray, and goes by the given number there; without, rays are
+    /// traced at once, one at a time. The numbers that come out are the same, bit by bit.
     PathContext(const Scene& scene_, SampleStream samples_, const Wavelengths& lambda_, Arena& arena_,
-                RayCounts& counts)
-        : scene(scene_), samples(samples_), lambda(lambda_), arena(arena_), counts_(counts) {}
+                RayCounts& counts, RayQueue* queue = nullptr, std::uint32_t number = 0)
+        : scene(scene_), samples(samples_), lambda(lambda_), arena(arena_), counts_(counts), queue_(queue),
+          number_(number) {}
     PathContext(const PathContext&) = delete;
     PathContext& operator=(const PathContext&) = delete;
 
@@ -38,33 +42,51 @@ class PathContext {
     Wavelengths lambda;
     Arena& arena;
 
-    /// An awaitable that gives the nearest hit, or nullopt. The ray, which must live until then, is traced at
-    /// once, without suspending.
+    /// An awaitable that gives the nearest hit, or nullopt. The ray must live until then.
     auto closest(const Ray& ray) {
         // The first ray of a path comes from the camera.
         ++(first_ray_ ? counts_.camera : counts_.bounce);
         first_ray_ = false;
-        // Traced in await_resume, so that the hit is made where it will stay.
-        return Ready{[this, &ray] { return scene.closest(ray); }};
+        return Closest{*this, ray};
     }
     /// An awaitable that gives true when nothing blocks the ray before its tmax.
     auto visible(const Ray& ray) {
         ++counts_.shadow;
-        return Ready{[this, &ray] { return scene.visible(ray); }};
+        return Visible{*this, ray};
     }
 
   private:
-    template <class Answer>
-    struct Ready {
-        Answer answer;
-        bool await_ready() const noexcept { return true; }
-        void await_suspend(std::coroutine_handle<>) const noexcept {}
-        auto await_resume() const { return answer(); }
+    struct Closest {
+        PathContext& path;
+        const Ray& ray;
+        std::uint32_t place = 0;
+
+        bool await_ready() const noexcept { return !path.queue_; }
+        void await_suspend(std::coroutine_handle<> waiting) {
+            place = path.queue_->add_closest(ray, waiting, path.number_);
+        }
+        // The hit is made here, where it will stay.
+        std::optional<Hit> await_resume() const {
+            return path.queue_ ? Scene::surface(path.queue_->found(place)) : path.scene.closest(ray);
+        }
     };
-    template <class Answer>
-    Ready(Answer) -> Ready<Answer>;
+    struct Visible {
+        PathContext& path;
+        const Ray& ray;
+        std::uint32_t place = 0;
+
+        bool await_ready() const noexcept { return !path.queue_; }
+        void await_suspend(std::coroutine_handle<> waiting) {
+            place = path.queue_->add_shadow(ray, waiting, path.number_);
+        }
+        bool await_resume() const {
+            return path.queue_ ? path.queue_->visible(place) : path.scene.visible(ray);
+        }
+    };
 
     RayCounts& counts_;
+    RayQueue* queue_;
+    std::uint32_t number_;
     bool first_ray_ = true;
 };
 

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include "base/threads.h"
+#include "render/flight.h"
 
 namespace alhazen {
 
@@ -18,23 +19,16 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What each thread keeps to itself.
-struct Worker {
-    Arena arena;
-    RayCounts rays;
-    std::uint64_t bad_samples = 0;
-    std::vector<BadSample> bad;
-};
-
 class Renderer {
   public:
     Renderer(World& world, const RenderSettings& settings, const RenderWatch& watch)
         : world_(world), watch_(watch), pixels_(world.film->pixels()),
           tile_size_(std::max(1, settings.tile_size)),
           tiles_x_((pixels_.width() + tile_size_ - 1) / tile_size_),
-          tiles_y_((pixels_.height() + tile_size_ - 1) / tile_size_) {
-        centred_ = world.spp == 1 && world.integrator->centres_single_samples();
-    }
+          tiles_y_((pixels_.height() + tile_size_ - 1) / tile_size_), flights_([&world, &settings] {
+              bool centred = world.spp == 1 && world.integrator->centres_single_samples();
+              return Flight(world, settings.paths_in_flight, centred);
+          }) {}
 
     RenderStats run() {
         world_.film->start(world_.mode);
@@ -72,44 +66,9 @@ class Renderer {
     }
 
     void render_tile(int tx, int ty) {
-        Worker& worker = workers_.local();
         Vec2i lo{pixels_.lo.x + tx * tile_size_, pixels_.lo.y + ty * tile_size_};
         Vec2i hi{std::min(lo.x + tile_size_, pixels_.hi.x), std::min(lo.y + tile_size_, pixels_.hi.y)};
-        for (int y = lo.y; y < hi.y; ++y)
-            for (int x = lo.x; x < hi.x; ++x)
-                for (int s = done_; s < done_ + pass_; ++s) render_sample({x, y}, s, worker);
-    }
-
-    void render_sample(Vec2i pixel, int sample, Worker& worker) {
-        worker.arena.reset();
-        SampleStream stream(*world_.sampler, pixel, static_cast<std::uint32_t>(sample));
-        FilterSample place = world_.filter->sample(stream.pixel2());
-        if (centred_) place = FilterSample{};
-        Wavelengths lambda = Wavelengths::rgb();
-        if (world_.mode == ColorMode::spectral) lambda = Wavelengths::sample_visible(stream.next1());
-        CameraSample at;
-        at.film = {static_cast<float>(pixel.x) + 0.5f + place.offset.x,
-                   static_cast<float>(pixel.y) + 0.5f + place.offset.y};
-        at.time = stream.next1();
-        at.lens = stream.next2();
-
-        Spectrum L = 0;
-        auto camera_ray = world_.camera->ray(at);
-        PathContext path(*world_.scene, stream, lambda, worker.arena, worker.rays);
-        if (camera_ray) {
-            Task<Spectrum> task = world_.integrator->radiance(camera_ray->ray, path);
-            task.start();
-            L = task.result() * camera_ray->weight;
-        }
-        if (L.is_finite())
-            world_.film->add(pixel, L, path.lambda, place.weight);
-        else
-            note_bad_sample(worker, {pixel, sample});
-    }
-
-    static void note_bad_sample(Worker& worker, BadSample bad) {
-        ++worker.bad_samples;
-        if (worker.bad.size() < 1000) worker.bad.push_back(bad);
+        flights_.local().run({{lo, hi}, done_, done_ + pass_});
     }
 
     void report(std::size_t tiles, bool pass_is_finished) {
@@ -127,7 +86,7 @@ class Renderer {
         p.seconds_left = p.fraction > 0 ? p.seconds * (1 - p.fraction) / p.fraction : 0;
         if (pass_is_finished) {
             std::uint64_t rays = 0;
-            for (const Worker& w : workers_) rays += w.rays.total();
+            for (const Flight& w : flights_) rays += w.rays.total();
             rays_per_second_ = p.seconds > 0 ? static_cast<double>(rays) / p.seconds : 0;
         }
         p.rays_per_second = rays_per_second_;
@@ -139,7 +98,7 @@ class Renderer {
         s.seconds = seconds_since(start_);
         s.samples = done_;
         s.cancelled = done_ < world_.spp;
-        for (const Worker& w : workers_) {
+        for (const Flight& w : flights_) {
             s.rays += w.rays;
             s.bad_samples += w.bad_samples;
             s.first_bad_samples.insert(s.first_bad_samples.end(), w.bad.begin(), w.bad.end());
@@ -157,12 +116,11 @@ class Renderer {
     const RenderWatch& watch_;
     Rect2i pixels_;
     int tile_size_, tiles_x_, tiles_y_;
-    bool centred_ = false;
     int done_ = 0, pass_ = 0;
     double last_pass_ = 0, rays_per_second_ = 0;
     std::atomic<std::size_t> tiles_done_{0};
     std::mutex report_mutex_;
-    tbb::enumerable_thread_specific<Worker> workers_;
+    tbb::enumerable_thread_specific<Flight> flights_; // one a thread
     Clock::time_point start_ = Clock::now();
 };
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "image/image.h"
-#include "integrators/path_context.h"
+#include "render/flight.h"
 #include "render/world.h"
 
 namespace alhazen {
@@ -20,12 +20,6 @@ struct Progress {
     double seconds = 0;  ///< since rendering began
     double seconds_left = 0;
     double rays_per_second = 0; ///< 0 until the first pass is finished
-};
-
-/// A sample that was dropped because it was not a finite number.
-struct BadSample {
-    Vec2i pixel;
-    int sample = 0;
 };
 
 struct RenderStats {

@@ -24,7 +24,10 @@ struct RenderSettings {
     std::optional<int> stack_entries; ///< of the walk with a short stack (1 ... 64)
     int threads = 0;                  ///< 0: all
     std::optional<ColorMode> color;   ///< default: spectral, but rgb for integrators that are defined in it
-    int tile_size = 16;               ///< pixels; does not change the image
+    int tile_size = 32;               ///< pixels; does not change the image
+    /// Paths that a thread follows at a time, so that their rays are traced together; 1: each ray alone. Does
+    /// not change the image.
+    int paths_in_flight = 128;
     /// "integrator.maxdepth=3", "material.Floor.reflectance=.5 .4 .3"
     std::vector<std::string> overrides;
 };

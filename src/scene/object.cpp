@@ -168,12 +168,12 @@ void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth) con
     if (structure_->closest(ray, nearest, tests)) settle(ray, nearest, depth, found);
 }
 
-void Object::closest(std::span<const Ray> rays, std::span<Found> found) const {
+void Object::closest(std::span<const Ray> rays, std::span<Intersection> hits, std::span<Found> found) const {
     ClosestTests tests(*this, found, 0);
-    std::vector<Intersection> nearest(rays.size());
-    structure_->closest(rays, nearest, tests);
+    for (Found& f : found) f.object = nullptr;
+    structure_->closest(rays, hits, tests);
     for (std::size_t i = 0; i < rays.size(); ++i)
-        if (nearest[i].found()) settle(rays[i], nearest[i], 0, found[i]);
+        if (hits[i].found()) settle(rays[i], hits[i], 0, found[i]);
 }
 
 // An instance's test has filled found already.

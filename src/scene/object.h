@@ -50,8 +50,9 @@ class Object final : public Primitives {
     void closest(const Ray& ray, Found& found) const;
     /// True when something stands before ray.tmax; borders of media do not count.
     bool any(const Ray& ray) const;
-    /// The same for many rays at once: found as constructed, blocked set to 0 or 1.
-    void closest(std::span<const Ray> rays, std::span<Found> found) const;
+    /// The same for many rays at once: hits as constructed, found[i].object set to nullptr where nothing is
+    /// hit, blocked set to 0 or 1.
+    void closest(std::span<const Ray> rays, std::span<Intersection> hits, std::span<Found> found) const;
     void any(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
     /// Walks as closest or any would, into instances too, and adds what was visited. True when there is a
     /// hit.

@@ -25,8 +25,20 @@ void Scene::rebuild(const AccelChoice& accel) {
 std::optional<Hit> Scene::closest(const Ray& ray) const {
     Found found;
     root_->closest(ray, found);
+    return surface(found);
+}
+
+std::optional<Hit> Scene::surface(const Found& found) {
     if (!found.object) return std::nullopt;
     return Object::surface(found);
+}
+
+void Scene::closest(std::span<const Ray> rays, std::span<Intersection> hits, std::span<Found> found) const {
+    root_->closest(rays, hits, found);
+}
+
+void Scene::blocked(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+    root_->any(rays, blocked);
 }
 
 bool Scene::visible(const Ray& ray) const {

@@ -33,6 +33,13 @@ class Scene {
     /// media do not count.
     bool visible(const Ray& ray) const;
 
+    /// The same for many rays at once; hits as constructed. found[i].object is nullptr where nothing is hit.
+    void closest(std::span<const Ray> rays, std::span<Intersection> hits, std::span<Found> found) const;
+    /// blocked: 1 where something stands at 0 < t < ray.tmax, else 0.
+    void blocked(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+    /// The full hit of what closest has found.
+    static std::optional<Hit> surface(const Found& found);
+
     std::span<const Light* const> lights() const { return lights_; }
     std::span<const Light* const> infinite_lights() const { return infinite_; }
     /// Must be called before choose_light: name is one of light_chooser_names().

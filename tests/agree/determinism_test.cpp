@@ -39,11 +39,12 @@ void expect_same_bits(const Image& a, const Image& b) {
     EXPECT_EQ(std::memcmp(va.data(), vb.data(), va.size_bytes()), 0);
 }
 
-Image rendered(int threads, int tile_size, const char* text = scene) {
+Image rendered(int threads, int tile_size, int paths_in_flight = RenderSettings{}.paths_in_flight) {
     RenderSettings settings;
     settings.threads = threads;
     settings.tile_size = tile_size;
-    return render_text(text, settings).image;
+    settings.paths_in_flight = paths_in_flight;
+    return render_text(scene, settings).image;
 }
 
 TEST(Determinism, ThreadsAndTilesDoNotChangeABit) {
@@ -51,6 +52,22 @@ TEST(Determinism, ThreadsAndTilesDoNotChangeABit) {
     EXPECT_GT(mean_of(reference, 0), 0.05);
     for (int threads : {1, 2, 3})
         for (int tile : {7, 16}) expect_same_bits(rendered(threads, tile), reference);
+}
+
+TEST(Determinism, RaysInCompanyDoNotChangeABit) {
+    Image reference = rendered(1, 16, 1);
+    for (int paths : {2, 3, 64, 128, 500}) expect_same_bits(rendered(2, 16, paths), reference);
+}
+
+TEST(Determinism, EveryIntegratorIsTheSameOnEverySchedule) {
+    for (const Kind<Integrator>& kind : integrator_kinds().all()) {
+        RenderSettings settings;
+        settings.integrator = kind.name;
+        settings.paths_in_flight = 1;
+        Image alone = render_text(scene, settings).image;
+        settings.paths_in_flight = 100;
+        expect_same_bits(render_text(scene, settings).image, alone);
+    }
 }
 
 TEST(Determinism, ACropShowsTheSamePixels) {

@@ -1,0 +1,133 @@
+#include "render/flight.h"
+
+namespace alhazen {
+
+namespace {
+
+// How far the samples that have ended may be ahead of the slowest: a power of two.
+constexpr std::size_t ring_size = 1024;
+// A path's frames and BSDFs fit in one such block, mostly.
+constexpr std::size_t arena_block = 4096;
+
+} // namespace
+
+/// A sample on its way, and the memory it lives in.
+struct Flight::Path {
+    explicit Path(std::uint32_t number_) : number(number_) {}
+
+    std::uint32_t number; ///< among the flight's paths
+    Arena arena{arena_block};
+    std::optional<PathContext> context;
+    std::optional<Task<Spectrum>> task;
+    std::uint64_t order = 0; ///< of the sample among the work's
+    Vec2i pixel;
+    int sample = 0;
+    float filter_weight = 1;
+    Spectrum camera_weight = 1;
+};
+
+/// A sample that has ended.
+struct Flight::Result {
+    Vec2i pixel;
+    int sample = 0;
+    Spectrum radiance = 0;
+    Wavelengths lambda;
+    float weight = 1;
+    bool is_done = false;
+};
+
+Flight::Flight(World& world, int paths, bool centred)
+    : world_(world), centred_(centred), results_(ring_size) {
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(std::max(1, paths)); ++i)
+        paths_.push_back(std::make_unique<Path>(i));
+}
+
+Flight::~Flight() = default;
+
+void Flight::run(const Work& work) {
+    work_ = work;
+    next_ = added_ = 0;
+    count_ = static_cast<std::uint64_t>(work.pixels.width()) *
+             static_cast<std::uint64_t>(work.pixels.height()) *
+             static_cast<std::uint64_t>(work.end_sample - work.first_sample);
+    for (const auto& path : paths_)
+        if (start_next(*path)) settle(*path);
+    while (added_ < count_) {
+        queue_.trace(*world_.scene, [this](std::uint32_t number) { settle(*paths_[number]); });
+        add_finished();
+        // Paths that found the ring full when they ended.
+        for (const auto& path : paths_)
+            if (!path->task && start_next(*path)) settle(*path);
+    }
+}
+
+// Gives the path the next sample, which runs until its first ray; false when there is none to begin now.
+bool Flight::start_next(Path& path) {
+    while (next_ < count_ && next_ - added_ < ring_size) {
+        place(path, next_++);
+        path.arena.reset();
+        SampleStream stream(*world_.sampler, path.pixel, static_cast<std::uint32_t>(path.sample));
+        FilterSample filter = world_.filter->sample(stream.pixel2());
+        if (centred_) filter = FilterSample{};
+        path.filter_weight = filter.weight;
+        Wavelengths lambda = Wavelengths::rgb();
+        if (world_.mode == ColorMode::spectral) lambda = Wavelengths::sample_visible(stream.next1());
+        CameraSample at;
+        at.film = {static_cast<float>(path.pixel.x) + 0.5f + filter.offset.x,
+                   static_cast<float>(path.pixel.y) + 0.5f + filter.offset.y};
+        at.time = stream.next1();
+        at.lens = stream.next2();
+        auto camera_ray = world_.camera->ray(at);
+        path.context.emplace(*world_.scene, stream, lambda, path.arena, rays,
+                             paths_.size() > 1 ? &queue_ : nullptr, path.number);
+        if (camera_ray) {
+            path.camera_weight = camera_ray->weight;
+            path.task.emplace(world_.integrator->radiance(camera_ray->ray, *path.context));
+            path.task->start();
+            return true;
+        }
+        finish(path, 0);
+    }
+    return false;
+}
+
+// Which sample of which pixel has this place in the work's order.
+void Flight::place(Path& path, std::uint64_t order) const {
+    const auto samples = static_cast<std::uint64_t>(work_.end_sample - work_.first_sample);
+    const auto width = static_cast<std::uint64_t>(work_.pixels.width());
+    const std::uint64_t pixel = order / samples;
+    path.order = order;
+    path.sample = work_.first_sample + static_cast<int>(order % samples);
+    path.pixel = {work_.pixels.lo.x + static_cast<int>(pixel % width),
+                  work_.pixels.lo.y + static_cast<int>(pixel / width)};
+}
+
+// A path that has ended hands its place on.
+void Flight::settle(Path& path) {
+    while (path.task && path.task->done()) {
+        finish(path, path.task->result() * path.camera_weight);
+        if (!start_next(path)) return;
+    }
+}
+
+void Flight::finish(Path& path, Spectrum radiance) {
+    Result& result = results_[path.order % ring_size];
+    result = {path.pixel, path.sample, radiance, path.context->lambda, path.filter_weight, true};
+    path.task.reset();
+    if (path.order == added_) add_finished();
+}
+
+void Flight::add_finished() {
+    for (; added_ < next_ && results_[added_ % ring_size].is_done; ++added_) {
+        Result& r = results_[added_ % ring_size];
+        r.is_done = false;
+        if (r.radiance.is_finite()) {
+            world_.film->add(r.pixel, r.radiance, r.lambda, r.weight);
+            continue;
+        }
+        ++bad_samples;
+        if (bad.size() < 1000) bad.push_back({r.pixel, r.sample});
+    }
+}
+
+} // namespace alhazen

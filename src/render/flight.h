@@ -1,0 +1,59 @@
+/// The paths that one thread follows at a time: while one waits for its ray, the others go on.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "integrators/path_context.h"
+#include "render/world.h"
+
+namespace alhazen {
+
+/// A sample that was dropped because it was not a finite number.
+struct BadSample {
+    Vec2i pixel;
+    int sample = 0;
+};
+
+/// Samples of pixels of which this thread is the only owner.
+class Flight {
+  public:
+    /// The samples first ... end - 1 of each pixel of an area.
+    struct Work {
+        Rect2i pixels;
+        int first_sample = 0, end_sample = 0;
+    };
+
+    /// paths: how many are followed at a time; 1: each ray is traced at once. centred: rays go through the
+    /// pixels' centres. The world must outlive the flight.
+    Flight(World& world, int paths, bool centred);
+    ~Flight();
+
+    /// Takes the samples and adds them to the film, each pixel's in their order.
+    void run(const Work& work);
+
+    RayCounts rays;                ///< traced so far
+    std::uint64_t bad_samples = 0; ///< dropped so far
+    std::vector<BadSample> bad;    ///< of these, up to 1000
+
+  private:
+    struct Path;
+    struct Result;
+
+    void place(Path& path, std::uint64_t order) const;
+    bool start_next(Path& path);
+    void settle(Path& path);
+    void finish(Path& path, Spectrum radiance);
+    void add_finished();
+
+    World& world_;
+    bool centred_;
+    Work work_;
+    std::uint64_t next_ = 0, count_ = 0; // of the work's samples: the first not begun, and how many there are
+    std::uint64_t added_ = 0;            // to the film
+    RayQueue queue_;
+    std::vector<std::unique_ptr<Path>> paths_;
+    std::vector<Result> results_; // a ring: samples end in another order than they begin
+};
+
+} // namespace alhazen
