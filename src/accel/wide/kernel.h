@@ -59,18 +59,31 @@ struct alignas(64) WideSlot {
     float entry[wide_stack];
 };
 
+/// A ray: origin, direction, end, and time, which kernels do not read.
+struct WideRay {
+    float o[3], d[3], tmax, time;
+};
+
+/// A hit, as Intersection holds it.
+struct WideHit {
+    float t, u, v;
+    std::uint32_t primitive, instance;
+};
+
 /// A question about some rays.
 struct WideQuery {
     const char* base = nullptr; ///< of addresses
     std::uint32_t root = 0;
-    std::uint32_t count = 0; ///< rays
+    float extent = 0; ///< the largest coordinate of any box
+    const WideRay* rays = nullptr;
+    std::uint32_t count = 0;
+    WideHit* hits = nullptr;         ///< closest: one a ray, written where there is a hit
+    std::uint8_t* blocked = nullptr; ///< any: one a ray, set to 1 where there is a hit
     void* owner = nullptr;
-    /// Prepares the slot for a ray; false when the ray can hit nothing.
-    bool (*start)(void* owner, WideSlot& slot, std::uint32_t ray) = nullptr;
     /// Tests the leaf's primitives whose bits are set; true when the slot's hit and tmax have changed.
     bool (*test)(void* owner, WideSlot& slot, std::uint32_t reference, std::uint32_t candidates) = nullptr;
-    /// Takes the slot's result.
-    void (*finish)(void* owner, const WideSlot& slot) = nullptr;
+    /// Where visits are counted: takes the slot's.
+    void (*count_visits)(void* owner, const WideSlot& slot) = nullptr;
 };
 
 /// The kernels for one instruction set.

@@ -15,6 +15,7 @@ namespace {
 using F = Lanes::F;
 using alhazen::WideNode;
 using alhazen::WideQuery;
+using alhazen::WideRay;
 using alhazen::WideSlot;
 
 enum : std::uint32_t {
@@ -24,6 +25,7 @@ enum : std::uint32_t {
     prefetched = 4 * 64 // bytes of a node, or of the beginning of a leaf
 };
 
+constexpr std::uint32_t no_hit = 0xffffffffu;
 constexpr float largest_float = 0x1.fffffep127f;
 
 #define ALHAZEN_INLINE __attribute__((always_inline)) inline
@@ -205,11 +207,106 @@ ALHAZEN_INLINE void prefetch(const WideQuery& query, std::uint32_t reference) {
     for (std::size_t line = 0; line < prefetched; line += 64) Lanes::prefetch(p + line);
 }
 
-ALHAZEN_INLINE void begin(const WideQuery& query, WideSlot& slot) {
+using F4 = float __attribute__((vector_size(16)));
+using I4 = int __attribute__((vector_size(16)));
+
+ALHAZEN_INLINE F4 with_sign(F4 v, I4 sign) {
+    return reinterpret_cast<F4>(reinterpret_cast<I4>(v) ^ sign);
+}
+ALHAZEN_INLINE float largest_of(F4 v) {
+    const float xy = v[0] > v[1] ? v[0] : v[1];
+    return xy > v[2] ? xy : v[2];
+}
+ALHAZEN_INLINE void store(float* to, F4 v) {
+    __builtin_memcpy(to, &v, sizeof v);
+}
+
+/// What RayShear holds, in the same operations.
+ALHAZEN_INLINE void set_shear(WideSlot& slot, const WideRay& ray, F4 speed) {
+    const std::uint32_t y_or_x = 1 - static_cast<std::uint32_t>(speed[0] > speed[1]);
+    const float longer = speed[0] > speed[1] ? speed[0] : speed[1];
+    const std::uint32_t z = longer > speed[2] ? y_or_x : 2;
+    const std::uint32_t x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
+    const F4 length = F4{} + ray.d[z];
+    const F4 shear = F4{ray.d[x], ray.d[y], 1, 1} / length;
+    slot.shear[0] = shear[0];
+    slot.shear[1] = shear[1];
+    slot.shear[2] = shear[2];
+    slot.axis[0] = x;
+    slot.axis[1] = y;
+    slot.axis[2] = z;
+}
+
+/// What BoxRay holds; see there. The reach is taken from all axes, for simplicity.
+ALHAZEN_INLINE void set_scales(WideSlot& slot, F4 o, F4 d, F4 speed, float extent) {
+    constexpr float unit = 0x1p-24f;
+    const I4 sign = reinterpret_cast<I4>(d) & static_cast<int>(0x80000000u);
+    const F4 size = reinterpret_cast<F4>(reinterpret_cast<I4>(o) & 0x7fffffff);
+    const float longest = largest_of(speed), farthest = largest_of(size);
+    const F4 spread = F4{} + 16 * unit * longest;
+    const F4 steady_pad = F4{} + 32 * unit * (farthest + extent);
+    const F4 pad = 4 * unit * size + (speed < 4 * spread ? steady_pad : F4{});
+    const F4 slow = speed - spread;
+    const F4 backward = with_sign(pad, sign);
+    F4 enter = with_sign(1 / (speed + spread), sign);
+    F4 leave = with_sign(1 / (slow > spread ? slow : spread), sign);
+    F4 leave_offset = (o - backward) * leave;
+    // Here products overflow: all boxes are visited. No scene has such rays.
+    if (!(longest > 0x1p-60f && longest < 0x1p+60f && farthest < 0x1p+60f && extent < 0x1p+60f))
+        [[unlikely]] {
+        enter = leave = F4{};
+        leave_offset = F4{} - largest_float;
+    }
+    store(slot.enter_scale, enter);
+    store(slot.leave_scale, leave);
+    store(slot.enter_offset, (o + backward) * enter);
+    store(slot.leave_offset, leave_offset);
+    // Orders are for octants that go forwards in x; the others read them from the end.
+    const I4 side = (sign >> 31) & 1;
+    const auto x = static_cast<std::uint32_t>(side[0]), y = static_cast<std::uint32_t>(side[1]),
+               z = static_cast<std::uint32_t>(side[2]);
+    slot.near_plane[0] = 32 * x;
+    slot.near_plane[1] = 64 + 32 * y;
+    slot.near_plane[2] = 128 + 32 * z;
+    slot.order = static_cast<std::uint32_t>(offsetof(WideNode, order)) + 3 * ((x ^ y) + 2 * (x ^ z));
+    slot.is_reversed = x;
+}
+
+/// Whether the ray can hit anything: see is_traceable.
+ALHAZEN_INLINE bool is_traceable(const WideRay& ray) {
+    const float all = (ray.o[0] - ray.o[0]) + (ray.o[1] - ray.o[1]) + (ray.o[2] - ray.o[2]) +
+                      (ray.d[0] - ray.d[0]) + (ray.d[1] - ray.d[1]) + (ray.d[2] - ray.d[2]);
+    return all == 0 && (ray.d[0] != 0 || ray.d[1] != 0 || ray.d[2] != 0) && ray.tmax > 0;
+}
+
+/// Prepares the slot for a ray; false when the ray can hit nothing.
+ALHAZEN_INLINE bool begin(const WideQuery& query, WideSlot& slot, std::uint32_t number) {
+    const WideRay& ray = query.rays[number];
+    if (!is_traceable(ray)) [[unlikely]]
+        return false;
+    const F4 o = {ray.o[0], ray.o[1], ray.o[2], 0}, d = {ray.d[0], ray.d[1], ray.d[2], 0};
+    const F4 speed = reinterpret_cast<F4>(reinterpret_cast<I4>(d) & 0x7fffffff);
+    set_scales(slot, o, d, speed, query.extent);
+    set_shear(slot, ray, speed);
+    for (std::size_t axis = 0; axis < 3; ++axis) slot.origin[axis] = ray.o[axis];
+    slot.tmax = ray.tmax;
+    slot.ray = number;
+    slot.t = __builtin_inff();
+    slot.primitive = no_hit;
     slot.reference[0] = alhazen::wide_done;
     slot.entry[0] = -__builtin_inff();
     slot.height = 1;
     slot.next = query.root;
+    return true;
+}
+
+template <bool any>
+ALHAZEN_INLINE void finish(const WideQuery& query, const WideSlot& slot) {
+    if (slot.primitive == no_hit) return;
+    if constexpr (any)
+        query.blocked[slot.ray] = 1;
+    else
+        query.hits[slot.ray] = {slot.t, slot.u, slot.v, slot.primitive, 0};
 }
 
 /// Numbers of slots, in the order of their turns. (Of 16 bits: bytes may be anything to the compiler, which
@@ -242,9 +339,7 @@ void trace_interleaved(const WideQuery& query) {
     };
     auto admit = [&](std::uint32_t i) {
         while (next_ray < query.count) {
-            if (!query.start(query.owner, slots[i], next_ray++)) continue;
-            begin(query, slots[i]);
-            return route(i, query.root);
+            if (begin(query, slots[i], next_ray++)) return route(i, query.root);
         }
     };
     for (std::uint32_t i = 0; i < rays_in_flight; ++i) admit(i);
@@ -264,7 +359,7 @@ void trace_interleaved(const WideQuery& query) {
                     slot.height = Lanes::drop_beyond(slot.tmax, slot.height, slot.reference, slot.entry);
             }
             if (is_done) {
-                query.finish(query.owner, slot);
+                finish<any>(query, slot);
                 admit(i);
             } else {
                 route(i, slot.reference[--slot.height]);
@@ -318,8 +413,7 @@ template <bool any, bool counted>
 void trace_in_turn(const WideQuery& query) {
     WideSlot slot;
     for (std::uint32_t ray = 0; ray < query.count; ++ray) {
-        if (!query.start(query.owner, slot, ray)) continue;
-        begin(query, slot);
+        if (!begin(query, slot, ray)) continue;
         if (counted) slot.nodes = slot.leaves = slot.highest = 0;
         std::uint32_t reference = query.root;
         for (;;) {
@@ -332,7 +426,8 @@ void trace_in_turn(const WideQuery& query) {
             }
             reference = slot.reference[--slot.height];
         }
-        query.finish(query.owner, slot);
+        finish<any>(query, slot);
+        if (counted) query.count_visits(query.owner, slot);
     }
 }
 
