@@ -166,7 +166,7 @@ TEST(Reinsertion, IsChosenByAPlusBehindTheBuilder) {
     ASSERT_TRUE(choice);
     EXPECT_EQ(choice->builder, "ploc+reinsertion");
     EXPECT_EQ(choice->name(), "ploc+reinsertion/stack");
-    EXPECT_EQ(parse_accel("+reinsertion", error)->name(), "sah+reinsertion/stack");
+    EXPECT_EQ(parse_accel("+reinsertion", error)->name(), "sah+reinsertion/wide");
     EXPECT_EQ(parse_accel("/stack", error)->name(), "sah/stack");
 
     EXPECT_FALSE(parse_accel("plok+reinsertion", error));
