@@ -79,7 +79,7 @@ tidy:
 	run-clang-tidy-16 -quiet -p build-tidy '/src/.*\.cpp$$'
 
 # A short set; see benchmarks/accel. BENCH="--mesh hair --repeat 9" for others.
-BENCH ?= --short --rays 50000 scenes/materials.pbrt --json bench.json
+BENCH ?= --short --rays 50000 --repeat 3 scenes/materials.pbrt --json bench.json
 bench:
 	@tools/install_packages build bench
 	@test -f build/build.ninja || cmake --preset release -DALHAZEN_TESTS=OFF

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -16,15 +17,21 @@ constexpr std::pair<PeerQuality, const char*> qualities[] = {
 /// Builders to compare, each with the walk that is measured.
 std::vector<AccelChoice> builders_of(const BenchOptions& options) {
     std::vector<AccelChoice> list;
-    for (const AccelBuilder& builder : accel_builders()) {
+    for (const std::string& builder : options.builders) {
         AccelChoice choice = options.structures.front();
-        choice.builder = builder.name;
+        choice.builder = builder;
         list.push_back(choice);
     }
     return list;
 }
 
+/// By the peer's quality, the choice's name, or "tree " and that name: without the layout.
 using Times = std::map<std::string, std::vector<double>>;
+
+const AccelWalk& walk_of(const AccelChoice& choice) {
+    auto walks = accel_walks();
+    return *std::find_if(walks.begin(), walks.end(), [&](const AccelWalk& w) { return w.name == choice.walk; });
+}
 
 // All of ours and all of the peer's in turn, again and again.
 Times measure_builds(const Object& root, const std::vector<AccelChoice>& ours, int threads, int repeat) {
@@ -33,12 +40,16 @@ Times measure_builds(const Object& root, const std::vector<AccelChoice>& ours, i
         for (auto [quality, name] : qualities)
             if (auto peer = make_peer(root, {quality, threads, false})) times[name].push_back(peer->build_seconds());
         for (const AccelChoice& choice : ours) {
-            double seconds = 0;
+            double tree_seconds = 0, layout_seconds = 0;
             with_threads(threads, [&] {
+                Tree tree;
                 std::unique_ptr<Structure> structure;
-                seconds = seconds_of(0, [&] { structure = make_structure(root, choice); });
+                tree_seconds = seconds_of(0, [&] { tree = build_tree(root, choice); });
+                layout_seconds = seconds_of(
+                    0, [&] { structure = walk_of(choice).make(root, tree, choice.walk_options); });
             });
-            times[choice.name()].push_back(seconds);
+            times[choice.name()].push_back(tree_seconds + layout_seconds);
+            times["tree " + choice.name()].push_back(tree_seconds);
         }
     }
     return times;
@@ -70,6 +81,7 @@ Json bench_building(World& world, const std::string& scene, const BenchOptions& 
                         {"threads", threads},
                         {"triangles", root.count()},
                         {"build_s", median_of(times[choice.name()])},
+                        {"tree_s", median_of(times["tree " + choice.name()])},
                         {"spread", spread_of(times[choice.name()])},
                         {"sah_cost", stats_of(build_tree(root, choice)).sah_cost}};
             std::string text;
@@ -78,8 +90,9 @@ Json bench_building(World& world, const std::string& scene, const BenchOptions& 
                 record[fmt::format("embree_{}_ratio", name)] = ratio ? Json(*ratio) : Json();
                 text += ratio ? fmt::format("  x{:.2f}", *ratio) : "";
             }
-            fmt::print("  {} thread(s)  {:<20}{:>9.3f} s  SAH {:>7.2f}{}\n", threads, choice.name(),
-                       record["build_s"].get<double>(), record["sah_cost"].get<double>(), text);
+            fmt::print("  {} thread(s)  {:<20}{:>8.3f} s (tree {:.3f})  SAH {:>7.2f}{}\n", threads, choice.name(),
+                       record["build_s"].get<double>(), record["tree_s"].get<double>(),
+                       record["sah_cost"].get<double>(), text);
             records.push_back(std::move(record));
         }
     }

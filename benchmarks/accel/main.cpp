@@ -32,6 +32,7 @@ void parse(CLI::App& app, int argc, char** argv, Arguments& a) {
     app.add_option("--mesh", a.meshes, "generated meshes by name (default: all of the set)")->delimiter(',');
     app.add_option("--structure", a.structures, "BUILDER/WALK (default: what pictures are rendered with)")
         ->delimiter(',');
+    app.add_option("--builder", a.options.builders, "whose times to build are compared")->delimiter(',');
     app.add_option("--part", a.parts, "walking, building, rendering (default: all)")->delimiter(',');
     app.add_option("--rays", a.options.lab.rays.rays, "of each kind");
     app.add_option("--repeat", a.options.lab.repeat, "times everything is timed");
@@ -47,6 +48,10 @@ void parse(CLI::App& app, int argc, char** argv, Arguments& a) {
         auto choice = parse_accel(text, error);
         if (!choice) throw CLI::ValidationError("--structure", error);
         a.options.structures.push_back(*choice);
+    }
+    for (const std::string& builder : a.options.builders) {
+        std::string error;
+        if (!parse_accel(builder, error)) throw CLI::ValidationError("--builder", error);
     }
     for (AccelChoice& choice : a.options.structures) choice.walk_options.instructions = a.instructions;
 }

@@ -15,7 +15,8 @@ struct Schedule {
     void (*apply)(RenderSettings&);
 };
 constexpr Schedule schedules[] = {
-    {"default", [](RenderSettings&) {}},
+    {"single", [](RenderSettings& settings) { settings.paths_in_flight = 1; }},
+    {"batched", [](RenderSettings&) {}},
 };
 
 double samples_per_second(const std::string& file, const Schedule& schedule, int spp) {
@@ -24,6 +25,7 @@ double samples_per_second(const std::string& file, const Schedule& schedule, int
     RenderSettings settings;
     settings.spp = spp;
     settings.threads = 2;
+    settings.integrator = "path";
     schedule.apply(settings);
     auto world = build_world(read_scene(file, messages), settings, messages);
     RenderStats stats = render(*world, settings, {});

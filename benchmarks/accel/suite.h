@@ -11,6 +11,8 @@ using Json = nlohmann::ordered_json;
 
 struct BenchOptions {
     std::vector<AccelChoice> structures; ///< that are walked
+    /// Builders whose times are compared with the peer's; the others are methods to study, not to compete.
+    std::vector<std::string> builders{"sah", "sbvh", "lbvh", "ploc"};
     LabOptions lab;
     /// Samples per pixel of whole renders, and how often each is repeated.
     int spp = 4, render_repeat = 3;

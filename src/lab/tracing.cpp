@@ -65,7 +65,7 @@ void trace_object(const Object& root, Query query, TraceMode mode, std::span<con
         if (mode == TraceMode::single)
             for (std::size_t k = 0; k < n; ++k) root.closest(rays[i + k], found[k]);
         else
-            root.closest(rays.subspan(i, n), found);
+            root.closest(rays.subspan(i, n), std::span(answers.hits).subspan(i, n), found);
         for (std::size_t k = 0; k < n; ++k) answers.hits[i + k] = found[k].hit;
     });
 }
