@@ -24,6 +24,8 @@ struct CameraRay {
 struct Camera {
     static constexpr std::string_view family_name = "camera";
     virtual ~Camera() = default;
+    /// Whether rays depend on CameraSample::lens.
+    virtual bool has_lens() const { return false; }
     /// nullopt where the film receives no light.
     virtual std::optional<CameraRay> ray(const CameraSample& sample) const = 0;
 

@@ -24,6 +24,8 @@ struct FlatCamera : Camera {
     float lensradius = 0;
     float focaldistance = 1e6f;
 
+    bool has_lens() const final { return lensradius > 0; }
+
   protected:
     template <class T>
     static void describe_flat(Fields<T>& f) {

@@ -11,11 +11,12 @@ float DirectLight::mis_weight() const {
 std::optional<DirectLight> propose_light(const Hit& hit, const Bsdf& bsdf, const Frame& frame,
                                          PathContext& path) {
     LightReceiver at{hit.p, hit.ns};
-    float u = path.samples.next1();
-    Vec2 u2 = path.samples.next2();
-    std::optional<ChosenLight> chosen = path.scene.choose_light(at, u);
-    if (!chosen) return std::nullopt;
-    std::optional<LightSample> light = chosen->light->sample(at, u2, path.lambda);
+    std::optional<ChosenLight> chosen = path.scene.choose_light(at, path.samples.next1());
+    if (!chosen) {
+        path.samples.skip(2);
+        return std::nullopt;
+    }
+    std::optional<LightSample> light = chosen->light->sample(at, path.pair_for(*chosen->light), path.lambda);
     if (!light || !(light->pdf > 0) || light->L.is_black()) return std::nullopt;
     Scatter scatter = bsdf.eval(frame.to_local(hit.wo), frame.to_local(light->wi));
     if (scatter.f.is_black()) return std::nullopt;

@@ -42,6 +42,13 @@ class PathContext {
     Wavelengths lambda;
     Arena& arena;
 
+    /// The pair of random numbers for a point on the light; none are drawn for a light without size.
+    Vec2 pair_for(const Light& light) {
+        if (!light.is_delta()) return samples.next2();
+        samples.skip(2);
+        return {};
+    }
+
     /// An awaitable that gives the nearest hit, or nullopt. The ray must live until then.
     auto closest(const Ray& ray) {
         // The first ray of a path comes from the camera.

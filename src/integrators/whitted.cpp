@@ -87,7 +87,7 @@ struct Whitted final : Integrator {
         Spectrum sum = ka * ambient.eval(path.lambda);
         if (hit.area_light) sum += hit.area_light->emitted(hit, path.lambda);
         for (const Light* light : path.scene.lights()) {
-            auto arriving = light->sample({hit.p, hit.ns}, path.samples.next2(), path.lambda);
+            auto arriving = light->sample({hit.p, hit.ns}, path.pair_for(*light), path.lambda);
             if (!arriving || arriving->pdf == 0) continue;
             Spectrum f = bsdf.local(wo, frame.to_local(arriving->wi));
             if (f.is_black()) continue;

@@ -67,16 +67,20 @@ bool Flight::start_next(Path& path) {
         place(path, next_++);
         path.arena.reset();
         SampleStream stream(*world_.sampler, path.pixel, static_cast<std::uint32_t>(path.sample));
-        FilterSample filter = world_.filter->sample(stream.pixel2());
-        if (centred_) filter = FilterSample{};
+        FilterSample filter;
+        if (!centred_) filter = world_.filter->sample(stream.pixel2());
         path.filter_weight = filter.weight;
         Wavelengths lambda = Wavelengths::rgb();
         if (world_.mode == ColorMode::spectral) lambda = Wavelengths::sample_visible(stream.next1());
         CameraSample at;
         at.film = {static_cast<float>(path.pixel.x) + 0.5f + filter.offset.x,
                    static_cast<float>(path.pixel.y) + 0.5f + filter.offset.y};
-        at.time = stream.next1();
-        at.lens = stream.next2();
+        // Nothing moves, so nobody needs the time.
+        stream.skip(1);
+        if (world_.camera->has_lens())
+            at.lens = stream.next2();
+        else
+            stream.skip(2);
         auto camera_ray = world_.camera->ray(at);
         path.context.emplace(*world_.scene, stream, lambda, path.arena, rays,
                              paths_.size() > 1 ? &queue_ : nullptr, path.number);

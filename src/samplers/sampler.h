@@ -45,6 +45,8 @@ class SampleStream {
     float next1() { return sampler_->next1(state_); }
     Vec2 next2() { return sampler_->next2(state_); }
     Vec2 pixel2() { return sampler_->pixel2(state_); }
+    /// Leaves out so many numbers that nobody needs: those behind them stay what they are.
+    void skip(std::uint32_t numbers) { state_.dimension += numbers; }
     const SampleState& state() const { return state_; }
 
   private:

@@ -33,9 +33,10 @@ struct ObjectTangents {
 };
 
 /// Angle around the z axis, 0 ... 2 pi.
-inline double azimuth(Vec3d p) {
-    double phi = std::atan2(p.y, p.x);
-    return phi < 0 ? phi + 2 * 3.14159265358979323846 : phi;
+template <class T>
+T azimuth(TVec3<T> p) {
+    T phi = std::atan2(p.y, p.x);
+    return phi < 0 ? phi + static_cast<T>(2 * 3.14159265358979323846) : phi;
 }
 inline double to_radians(float degrees) {
     return static_cast<double>(degrees) * (3.14159265358979323846 / 180);

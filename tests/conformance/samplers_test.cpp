@@ -96,6 +96,24 @@ TEST(SamplerConformance, NumbersAreInRangeAndPure) {
     });
 }
 
+TEST(SamplerConformance, SkippingIsDrawingUnseen) {
+    for_each_sampler([](const std::string& kind, Sampler& s) {
+        for_each_sample(s, {5, 4}, 3, [&](SampleStream stream) {
+            SampleStream other = stream;
+            stream.pixel2();
+            other.pixel2();
+            stream.next1();
+            stream.next2();
+            stream.next1();
+            other.skip(1);
+            other.skip(2);
+            other.skip(1);
+            ASSERT_EQ(stream.next2(), other.next2()) << kind;
+            ASSERT_EQ(stream.next1(), other.next1()) << kind;
+        });
+    });
+}
+
 TEST(SamplerConformance, SingleNumbersAreUniform) {
     constexpr int count = 24;
     for_each_sampler(

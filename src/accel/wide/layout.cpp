@@ -52,9 +52,11 @@ class Placement {
   public:
     Placement(const Tree& tree, const Primitives& primitives, const CollapsedTree& collapsed)
         : tree_(tree), primitives_(primitives), next_(wide_unit) {
-        root = collapsed.single_leaf.count > 0 ? place_leaf(collapsed.single_leaf) : wide_unit / wide_unit;
-        next_ = round_up(next_, alignof(WideNode));
-        if (collapsed.single_leaf.count == 0) root = reference_to(next_);
+        if (collapsed.single_leaf.count > 0) {
+            root = place_leaf(collapsed.single_leaf);
+            return;
+        }
+        root = reference_to(round_up(next_, alignof(WideNode)));
         references.resize(collapsed.nodes.size());
         at.resize(collapsed.nodes.size());
         // A node's leaves follow it, so that they are fetched from the same page.

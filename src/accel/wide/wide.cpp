@@ -1,7 +1,7 @@
 /// The production walk: eight children a node, up to eight triangles a leaf, and many rays in flight (see
 /// kernel_text.h).
 #include <bit>
-#include <cstring>
+#include <stdexcept>
 
 #include "accel/list.h"
 #include "accel/wide/dispatch.h"
@@ -191,8 +191,13 @@ class WideStructure final : public Structure {
     float extent_ = 0;
 };
 
+// An object too large for the layout's references is walked the ordinary way.
 std::unique_ptr<Structure> make(const Primitives& primitives, const Tree& tree, const WalkOptions& options) {
-    return std::make_unique<WideStructure>(primitives, tree, wide_kernels(options.instructions));
+    try {
+        return std::make_unique<WideStructure>(primitives, tree, wide_kernels(options.instructions));
+    } catch (const std::length_error&) {
+        return stack_walk().make(primitives, tree, options);
+    }
 }
 
 } // namespace
