@@ -16,7 +16,8 @@ struct Schedule {
 };
 constexpr Schedule schedules[] = {
     {"single", [](RenderSettings& settings) { settings.paths_in_flight = 1; }},
-    {"batched", [](RenderSettings&) {}},
+    {"batched", [](RenderSettings& settings) { settings.paths_in_flight = 128; }},
+    {"default", [](RenderSettings&) {}},
 };
 
 double samples_per_second(const std::string& file, const Schedule& schedule, int spp) {

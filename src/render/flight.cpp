@@ -8,8 +8,17 @@ namespace {
 constexpr std::size_t ring_size = 1024;
 // A path's frames and BSDFs fit in one such block, mostly.
 constexpr std::size_t arena_block = 4096;
+// Measured: 64 are a little slower, 256 no faster.
+constexpr int many_paths = 128;
+// Below this, one ray at a time was measured to be a tenth to a quarter faster (Whitted's spheres, the
+// Cornell box).
+constexpr std::size_t cached_bytes = std::size_t{256} << 10;
 
 } // namespace
+
+int default_paths_in_flight(const Scene& scene) {
+    return scene.counts().accel_bytes < cached_bytes ? 1 : many_paths;
+}
 
 /// A sample on its way, and the memory it lives in.
 struct Flight::Path {
@@ -38,7 +47,8 @@ struct Flight::Result {
 
 Flight::Flight(World& world, int paths, bool centred)
     : world_(world), centred_(centred), results_(ring_size) {
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(std::max(1, paths)); ++i)
+    if (paths <= 0) paths = default_paths_in_flight(*world.scene);
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(paths); ++i)
         paths_.push_back(std::make_unique<Path>(i));
 }
 

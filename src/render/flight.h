@@ -15,6 +15,10 @@ struct BadSample {
     int sample = 0;
 };
 
+/// How many paths to follow at a time in a scene, when nobody says: many, to hide the latency of memory, or
+/// one, where the structures fit a core's own cache and there is none to hide.
+int default_paths_in_flight(const Scene& scene);
+
 /// Samples of pixels of which this thread is the only owner.
 class Flight {
   public:
@@ -24,8 +28,8 @@ class Flight {
         int first_sample = 0, end_sample = 0;
     };
 
-    /// paths: how many are followed at a time; 1: each ray is traced at once. centred: rays go through the
-    /// pixels' centres. The world must outlive the flight.
+    /// paths: how many are followed at a time; 1: each ray is traced at once; 0: the default. centred: rays
+    /// go through the pixels' centres. The world must outlive the flight.
     Flight(World& world, int paths, bool centred);
     ~Flight();
 

@@ -69,7 +69,8 @@ struct Sphere final : QuadricShape<Sphere> {
         if (p.x == 0 && p.y == 0) p.x = 1e-6 * r_;
         double across = std::sqrt(p.x * p.x + p.y * p.y), range = theta_max_ - theta_min_;
         // As exact as uv, and a good deal faster than in double precision.
-        double phi = azimuth(Vec3(p)), theta = std::atan2(static_cast<float>(across), static_cast<float>(p.z));
+        double phi = azimuth(Vec3(p)),
+               theta = std::atan2(static_cast<float>(across), static_cast<float>(p.z));
         return {{static_cast<float>(phi / phi_max_), static_cast<float>((theta - theta_min_) / range)},
                 Vec3d{-p.y, p.x, 0} * phi_max_,
                 Vec3d{p.z * p.x / across, p.z * p.y / across, -across} * range};

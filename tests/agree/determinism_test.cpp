@@ -39,7 +39,7 @@ void expect_same_bits(const Image& a, const Image& b) {
     EXPECT_EQ(std::memcmp(va.data(), vb.data(), va.size_bytes()), 0);
 }
 
-Image rendered(int threads, int tile_size, int paths_in_flight = RenderSettings{}.paths_in_flight) {
+Image rendered(int threads, int tile_size, int paths_in_flight = 100) {
     RenderSettings settings;
     settings.threads = threads;
     settings.tile_size = tile_size;
@@ -52,6 +52,7 @@ TEST(Determinism, ThreadsAndTilesDoNotChangeABit) {
     EXPECT_GT(mean_of(reference, 0), 0.05);
     for (int threads : {1, 2, 3})
         for (int tile : {7, 16}) expect_same_bits(rendered(threads, tile), reference);
+    expect_same_bits(render_text(scene, {}).image, reference);
 }
 
 TEST(Determinism, RaysInCompanyDoNotChangeABit) {

@@ -60,11 +60,13 @@ TEST_F(Render, QuietPrintsNothing) {
     EXPECT_EQ(o.out + o.err, "");
 }
 
-TEST_F(Render, SeedChangesTheNoiseAndThreadsDoNot) {
+TEST_F(Render, SeedChangesTheNoiseThreadsAndScheduleDoNot) {
     ASSERT_EQ(alhazen("render scene.pbrt -o a.pfm --threads 1").exit_code, 0);
     ASSERT_EQ(alhazen("render scene.pbrt -o b.pfm --threads 3 --tile-size 5").exit_code, 0);
     ASSERT_EQ(alhazen("render scene.pbrt -o c.pfm --seed 5").exit_code, 0);
+    ASSERT_EQ(alhazen("render scene.pbrt -o d.pfm --in-flight 50").exit_code, 0);
     EXPECT_EQ(file_text(path("a.pfm")), file_text(path("b.pfm")));
+    EXPECT_EQ(file_text(path("a.pfm")), file_text(path("d.pfm")));
     EXPECT_NE(file_text(path("a.pfm")), file_text(path("c.pfm")));
 }
 
@@ -178,6 +180,7 @@ TEST_F(Render, ArgumentsThatAreWrong) {
     expect_error("render scene.pbrt --seed x", "--seed");
     expect_error("render scene.pbrt --threads -1", "--threads");
     expect_error("render scene.pbrt --tile-size 0", "--tile-size");
+    expect_error("render scene.pbrt --in-flight 0", "--in-flight");
     expect_error("render scene.pbrt --color cmyk", "--color");
     expect_error("render scene.pbrt --stats none/s.json -o a.png", "cannot write \"none/s.json\"");
     expect_error("render scene.pbrt --set maxdepth=3", "write it as FAMILY.PARAMETER=VALUE");
