@@ -22,7 +22,7 @@ class Finisher {
         measure(linked_.root, 0);
         std::size_t nodes = below_[linked_.root].nodes;
         tree_.nodes.reserve(nodes);
-        prefer_large_pages(tree_.nodes.data(), nodes * sizeof(Tree::Node));
+        prefer_huge_pages(tree_.nodes.data(), nodes * sizeof(Tree::Node));
         tree_.nodes.resize(nodes);
         tree_.order.resize(below_[linked_.root].references);
         place(linked_.root, 0, 0, 0);
@@ -103,7 +103,7 @@ class Finisher {
     LinkedTree& linked_;
     float node_cost_;
     std::uint32_t leaf_size_, block_;
-    RawBuffer<Below> below_;
+    BigArray<Below> below_;
     Tree tree_;
 };
 
@@ -111,7 +111,7 @@ class Finisher {
 
 LinkedTree linked(Tree&& tree) {
     LinkedTree linked;
-    linked.nodes = RawBuffer<LinkedTree::Node>(tree.nodes.size());
+    linked.nodes = BigArray<LinkedTree::Node>(tree.nodes.size());
     parallel_ranges(tree.nodes.size(), 16384, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Tree::Node& n = tree.nodes[i];

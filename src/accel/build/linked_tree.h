@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "accel/build/raw_buffer.h"
 #include "accel/build/tree.h"
+#include "base/big_array.h"
 
 namespace alhazen {
 
@@ -41,7 +41,7 @@ struct LinkedTree {
             count = 0;
         }
     };
-    RawBuffer<Node> nodes; ///< empty: no tree
+    BigArray<Node> nodes; ///< empty: no tree
     std::uint32_t root = 0;
     std::vector<std::uint32_t> order; ///< primitive numbers
 };

@@ -55,13 +55,13 @@ void store(float* p, Lanes4 v) {
 // The boxes still in the line, scaled (see scale.h), each side of the boxes in a run of its own. Behind the
 // last stand some boxes so large that nobody chooses them.
 struct Line {
-    std::array<RawBuffer<float>, 6> sides; // lo.x lo.y lo.z hi.x hi.y hi.z
-    RawBuffer<std::uint32_t> nodes;        // of the tree, one a box
-    RawBuffer<std::uint8_t> heights;       // of these, in edges
+    std::array<BigArray<float>, 6> sides; // lo.x lo.y lo.z hi.x hi.y hi.z
+    BigArray<std::uint32_t> nodes;        // of the tree, one a box
+    BigArray<std::uint8_t> heights;       // of these, in edges
     std::size_t size = 0;
 
     explicit Line(std::size_t most) : nodes(most), heights(most) {
-        for (auto& side : sides) side = RawBuffer<float>(most + radius + 2 * lanes);
+        for (auto& side : sides) side = BigArray<float>(most + radius + 2 * lanes);
     }
     void end_at(std::size_t count) {
         size = count;
@@ -100,7 +100,7 @@ class PlocBuilder {
     PlocBuilder(std::span<const Bounds3> boxes, std::vector<MortonKey> keys)
         : count_(keys.size()), line_(count_), next_(count_), nearest_(count_),
           parts_((count_ + grain - 1) / grain) {
-        tree_.nodes = RawBuffer<LinkedTree::Node>(2 * count_ - 1);
+        tree_.nodes = BigArray<LinkedTree::Node>(2 * count_ - 1);
         tree_.order.resize(count_);
         Bounds3 whole = parallel_sum(
             count_, grain, Bounds3{},
@@ -257,7 +257,7 @@ class PlocBuilder {
     std::size_t count_;
     LinkedTree tree_;
     Line line_, next_;
-    RawBuffer<std::uint32_t> nearest_;
+    BigArray<std::uint32_t> nearest_;
     std::vector<Part> parts_;
     std::size_t pairs_ = 0;     // of this round
     std::size_t used_ = count_; // nodes of the tree

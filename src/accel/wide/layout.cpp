@@ -4,15 +4,12 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <sys/mman.h>
-
 #include "base/threads.h"
 
 namespace alhazen {
 
 namespace {
 
-constexpr std::size_t huge_page = std::size_t{2} << 20;
 // Kernels read whole registers, and fetch whole nodes ahead.
 constexpr std::size_t slack = 512;
 // Nodes without a box to be hit stay behind this: references to them are never followed but by rays that are
@@ -155,38 +152,23 @@ WideLayout::WideLayout(const Tree& tree, const Primitives& primitives) {
     if (tree.nodes.empty()) return;
     const CollapsedTree collapsed = collapse(tree, primitives, wide_costs, wide_stack - 8);
     const Placement placement(tree, primitives, collapsed);
-    allocate(placement.bytes());
+    memory_ = BigArray<char>(placement.bytes() + slack);
     root_ = placement.root;
     nodes_ = collapsed.nodes.size();
     depth_ = collapsed.depth;
     cost_ = collapsed.cost;
     auto address = [&](std::uint32_t reference) {
-        return memory_.get() + static_cast<std::size_t>(reference & wide_address) * wide_unit;
+        return memory_.data() + static_cast<std::size_t>(reference & wide_address) * wide_unit;
     };
     *reinterpret_cast<std::uint32_t*>(address(null_leaf)) = no_primitive;
     if (collapsed.single_leaf.count > 0) write_leaf(address(root_), tree, primitives, collapsed.single_leaf);
     parallel_for(collapsed.nodes.size(), 512, [&](std::size_t i) {
         const CollapsedNode& from = collapsed.nodes[i];
-        write_node(*new (memory_.get() + placement.at[i]) WideNode, from, placement.references[i]);
+        write_node(*new (memory_.data() + placement.at[i]) WideNode, from, placement.references[i]);
         for (std::size_t k = 0; k < static_cast<std::size_t>(from.count); ++k)
             if (from.child[k].is_leaf())
                 write_leaf(address(placement.references[i][k]), tree, primitives, from.child[k].leaf);
     });
-}
-
-void WideLayout::allocate(std::size_t bytes) {
-    bytes_ = bytes;
-    // Small structures do not take a huge page each.
-    const bool is_large = bytes > huge_page;
-    const std::size_t alignment = is_large ? huge_page : alignof(WideNode);
-    const std::size_t size = round_up(bytes + slack, alignment);
-    memory_.reset(static_cast<char*>(std::aligned_alloc(alignment, size)));
-    if (!memory_) throw std::bad_alloc();
-    // Rays jump all over the block: without huge pages much of their time goes into address translation.
-    if (is_large) madvise(memory_.get(), size, MADV_HUGEPAGE);
-    // What is between leaves and behind them is read, though not used.
-    if (!is_large) std::memset(memory_.get(), 0, size);
-    if (is_large) std::memset(memory_.get() + size - slack, 0, slack);
 }
 
 } // namespace alhazen

@@ -1,12 +1,10 @@
 /// The production structure in memory: nodes of eight children and the leaves' triangles, in one block.
 #pragma once
 
-#include <cstdlib>
-#include <memory>
-
 #include "accel/structure.h"
 #include "accel/wide/collapse.h"
 #include "accel/wide/kernel.h"
+#include "base/big_array.h"
 
 namespace alhazen {
 
@@ -18,27 +16,22 @@ class WideLayout {
     /// The tree's bounds and leaves; throws std::length_error when they need more than 4 GB.
     WideLayout(const Tree& tree, const Primitives& primitives);
 
-    const char* base() const { return memory_.get(); }
+    const char* base() const { return memory_.data(); }
     /// The root's reference; wide_done when there is nothing.
     std::uint32_t root() const { return root_; }
-    LayoutStats stats() const { return {nodes_, depth_, bytes_}; }
+    LayoutStats stats() const { return {nodes_, depth_, memory_.size()}; }
     /// Expected cost of a ray in node visits, by the model by which the tree was collapsed.
     double cost() const { return cost_; }
 
   private:
-    struct Free {
-        void operator()(char* p) const { std::free(p); } // from std::aligned_alloc
-    };
-    void allocate(std::size_t bytes);
-
-    std::unique_ptr<char, Free> memory_;
+    BigArray<char> memory_;
     std::uint32_t root_ = wide_done;
-    std::size_t nodes_ = 0, bytes_ = 0;
+    std::size_t nodes_ = 0;
     int depth_ = 0;
     double cost_ = 0;
 };
 
-/// Costs measured with benchmarks/accel on rays of all kinds: see docs/performance.md.
+/// A node's test of eight boxes and a leaf's of eight triangles are taken for equally long; not measured yet.
 inline constexpr CollapseCosts wide_costs{};
 
 } // namespace alhazen

@@ -22,7 +22,7 @@ Tree build_halving(const std::vector<Bounds3>& boxes, const BuildOptions& option
     auto keys = morton_keys(boxes);
     sort_by_code(keys);
     LinkedTree tree;
-    tree.nodes = RawBuffer<LinkedTree::Node>(2 * keys.size() - 1);
+    tree.nodes = BigArray<LinkedTree::Node>(2 * keys.size() - 1);
     std::uint32_t used = 0;
     for (const MortonKey& key : keys) {
         auto place = static_cast<std::uint32_t>(tree.order.size());

@@ -17,7 +17,7 @@ using namespace accel_test;
 // Halves the primitives as they are numbered, wherever they are; leaves of leaf_size.
 Tree build_blindly(const std::vector<Bounds3>& boxes, std::uint32_t leaf_size) {
     LinkedTree tree;
-    tree.nodes = RawBuffer<LinkedTree::Node>(2 * boxes.size());
+    tree.nodes = BigArray<LinkedTree::Node>(2 * boxes.size());
     std::uint32_t used = 0;
     for (std::uint32_t i = 0; i < boxes.size(); ++i) tree.order.push_back(i);
     auto halve = [&](auto&& self, std::uint32_t begin, std::uint32_t end) -> std::uint32_t {
@@ -39,7 +39,7 @@ Tree build_blindly(const std::vector<Bounds3>& boxes, std::uint32_t leaf_size) {
 // One box after the other is split off, from the last; depth edges.
 Tree build_comb(const std::vector<Bounds3>& boxes) {
     LinkedTree tree;
-    tree.nodes = RawBuffer<LinkedTree::Node>(2 * boxes.size() - 1);
+    tree.nodes = BigArray<LinkedTree::Node>(2 * boxes.size() - 1);
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
         tree.nodes[i].make_leaf(boxes[i], i, 1);
         tree.order.push_back(i);
