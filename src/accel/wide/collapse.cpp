@@ -1,6 +1,6 @@
 #include "accel/wide/collapse.h"
 
-#include <tbb/parallel_for.h>
+#include "base/threads.h"
 
 namespace alhazen {
 
@@ -76,7 +76,7 @@ class Collapser {
             stack.push_back({node + 1, right});
             stack.push_back({right, end});
         }
-        tbb::parallel_for(std::size_t{0}, subtrees.size(), [&](std::size_t s) {
+        parallel_for(subtrees.size(), 1, [&](std::size_t s) {
             for (std::uint32_t i = subtrees[s].second; i-- > subtrees[s].first;) summarize_node(i);
         });
         std::sort(above.begin(), above.end());
