@@ -1,5 +1,4 @@
-/// Eight floats in one AVX register; with AVX-512, masks and compression beside it. (Wider registers were
-/// measured to be slower: the processors at hand split them in two.)
+/// Eight floats in one AVX register; with AVX-512, masks and compression beside it.
 #pragma once
 
 #include <immintrin.h>

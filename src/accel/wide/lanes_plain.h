@@ -1,6 +1,8 @@
 /// Eight floats for any processor.
 #pragma once
 
+#include "accel/wide/one_by_one.h"
+
 namespace {
 
 struct Lanes {
@@ -87,38 +89,17 @@ struct Lanes {
     static std::uint32_t push_in_order(const F& near, const F& far, const std::uint32_t* child,
                                        std::uint32_t order, std::uint32_t is_reversed,
                                        std::uint32_t* reference, float* entry) {
-        const std::uint32_t hits = at_most(near, far);
-        std::uint32_t n = 0;
-        for (std::uint32_t i = 0; i < 8; ++i) {
-            const std::uint32_t shift = is_reversed ? 21 - 3 * i : 3 * i;
-            const std::uint32_t c = (order >> shift) & 7;
-            reference[n] = child[c];
-            entry[n] = near.v[c];
-            n += (hits >> c) & 1;
-        }
-        return n;
+        return OneByOne::push_in_order(at_most(near, far), near.v, child, order, is_reversed, reference,
+                                       entry);
     }
     static std::uint32_t push(const F& near, const F& far, const std::uint32_t* child,
                               std::uint32_t* reference) {
-        const std::uint32_t hits = at_most(near, far);
-        std::uint32_t n = 0;
-        for (std::uint32_t c = 0; c < 8; ++c) {
-            reference[n] = child[c];
-            n += (hits >> c) & 1;
-        }
-        return n;
+        return OneByOne::push(at_most(near, far), child, reference);
     }
     /// Drops the entries from 1 to height that are farther than tmax; returns the new height.
     static std::uint32_t drop_beyond(float tmax, std::uint32_t height, std::uint32_t* reference,
                                      float* entry) {
-        std::uint32_t n = 1;
-        for (std::uint32_t i = 1; i < height; ++i) {
-            const float t = entry[i];
-            reference[n] = reference[i];
-            entry[n] = t;
-            n += t <= tmax;
-        }
-        return n;
+        return OneByOne::drop_beyond(tmax, height, reference, entry);
     }
     /// Inlined by force: gcc takes a function that only prefetches for one without effect, and drops its
     /// calls.
