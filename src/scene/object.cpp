@@ -1,6 +1,7 @@
 #include "scene/object.h"
 
 #include "base/hash.h"
+#include "base/threads.h"
 
 namespace alhazen {
 
@@ -46,6 +47,15 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
         for (std::uint32_t i = 0; i < shapes_[s].shape->primitive_count(); ++i) primitives_.push_back({s, i});
     for (std::uint32_t i = 0; i < instances_.size(); ++i) primitives_.push_back({instance_mark, i});
     structure_ = make_structure(*this, accel);
+    bounds_ = parallel_sum<Bounds3>(
+        primitives_.size(), 16384, Bounds3{},
+        [this](Bounds3& box, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                Bounds3 one = bounds(static_cast<std::uint32_t>(i));
+                if (is_finite(one.lo) && is_finite(one.hi) && !one.empty()) box.extend(one);
+            }
+        },
+        [](Bounds3& box, const Bounds3& part) { box.extend(part); });
 }
 
 PrimitiveKind Object::kind(std::uint32_t primitive) const {

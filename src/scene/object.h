@@ -60,7 +60,8 @@ class Object final : public Primitives {
     /// The full hit, in world space.
     static Hit surface(const Found& found);
 
-    const Bounds3& bounds() const { return structure_->bounds(); }
+    /// Around all that can be hit, not padded as the structure's own are.
+    const Bounds3& bounds() const { return bounds_; }
     const std::vector<PlacedShape>& shapes() const { return shapes_; }
     const std::vector<PlacedObject>& instances() const { return instances_; }
     const Structure& structure() const { return *structure_; }
@@ -101,6 +102,7 @@ class Object final : public Primitives {
     std::vector<Leaf> leaves_; ///< one a shape
     std::vector<Primitive> primitives_;
     std::unique_ptr<Structure> structure_;
+    Bounds3 bounds_;
     std::size_t height_ = 1;
 };
 

@@ -34,8 +34,7 @@ TEST_F(Commands, InfoTellsWhatIsThere) {
     auto json = nlohmann::json::parse(alhazen("info scene.pbrt --json").out);
     EXPECT_EQ(json["primitives"], 1);
     EXPECT_EQ(json["light_count"], 2);
-    // Boxes are a few roundings larger than what is in them.
-    EXPECT_NEAR(json["bounds"]["max"][0], 1, 1e-5);
+    EXPECT_NEAR(json["bounds"]["max"][0], 1, 1e-6);
     EXPECT_EQ(alhazen("info none.pbrt").exit_code, 2);
 }
 
