@@ -1,6 +1,6 @@
 # The files of src/accel/wide that are compiled for instruction sets beyond the ordinary; the program chooses among them
 # when it runs. They share nothing with the other files, the precompiled header included: see kernel.h. Their vectors are
-# written by hand: what compilers vectorise beside them costs more than it gains.
+# written by hand; compilers are told to add none.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
     set(kernel_flags_sse42 -msse4.2)
     set(kernel_flags_avx2 -mavx2 -mfma -mbmi -mbmi2 -mpopcnt)

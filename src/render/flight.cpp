@@ -8,7 +8,6 @@ namespace {
 constexpr std::size_t ring_size = 1024;
 // A path's frames and BSDFs fit in one such block, mostly.
 constexpr std::size_t arena_block = 4096;
-// Measured: 64 are a little slower, 256 no faster.
 constexpr int many_paths = 128;
 // Below this, one ray at a time was measured to be a tenth to a quarter faster (Whitted's spheres, the
 // Cornell box).
