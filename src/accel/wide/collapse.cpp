@@ -180,6 +180,10 @@ class Collapser {
         } else {
             children_by_cost(part.node, parts);
         }
+        // The largest is visited first by rays that look for any hit.
+        std::stable_sort(parts.begin(), parts.end(), [&](const Part& a, const Part& b) {
+            return tree_.nodes[a.node].bounds.half_area() < tree_.nodes[b.node].bounds.half_area();
+        });
     }
 
     bool becomes_leaf(Part part) const {

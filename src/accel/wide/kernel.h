@@ -22,37 +22,41 @@ struct alignas(64) WideNode {
 };
 static_assert(sizeof(WideNode) == 256);
 
-/// References to nodes and leaves: 27 bits of address in units of 32 bytes, and for leaves how many
-/// primitives of which kind. A leaf of n triangles: nine arrays of n floats (corner a's x, y, z, then b's,
-/// then c's), then n primitive numbers. Another leaf: the numbers only.
+/// References: a byte's address, a multiple of 32, and what is there in the five low bits, so that nothing
+/// need be taken apart to come to a node. Nodes have no bit set.
+///
+/// A leaf of n plain triangles: nine arrays of n floats (corner a's x, y, z, then b's, then c's), then n
+/// primitive numbers. Any other leaf begins with a word: how many primitives, and wide_filtered when they are
+/// triangles, which follow as above; wide_filtered stands in the numbers of those whose hits must be
+/// accepted. Without that bit only primitive numbers follow.
 enum WideReference : std::uint32_t {
-    wide_leaf = 0x80000000u,
-    wide_custom = 0x40000000u,
-    wide_count_shift = 27, ///< three bits: primitives - 1
-    wide_address = 0x07ffffffu,
-    wide_done = 0xffffffffu, ///< at the bottom of every stack
+    wide_leaf = 1,
+    wide_count_shift = 1,        ///< three bits of a leaf of plain triangles: how many - 1
+    wide_other = 16,             ///< a leaf of other primitives
+    wide_address = 0xffffffe0u,  ///< mask
+    wide_done = 0x1f,            ///< at the bottom of every stack; nothing is there
+    wide_unit = 32,              ///< what addresses are multiples of, bytes
+    wide_filtered = 0x80000000u, ///< in the first word of other leaves, and in primitive numbers
 };
 enum : std::uint32_t {
-    wide_unit = 32,              ///< bytes
-    wide_filtered = 0x80000000u, ///< in primitive numbers: the hit must be accepted
-    wide_stack = 256,            ///< entries; layouts see to it that this is enough
+    wide_stack = 256, ///< entries; layouts see to it that this is enough
 };
 
 /// One ray on its way, with all that is computed once a ray.
 struct alignas(64) WideSlot {
     float enter_scale[4], enter_offset[4], leave_scale[4], leave_offset[4]; ///< see BoxRay
-    float origin[3];
+    std::uint32_t near_plane[4]; ///< where in a node the planes are through which the ray enters, bytes
     float tmax;                  ///< where the search ends by now
-    float shear[3];              ///< see RayShear: x, y, z
-    std::uint32_t axis[3];       ///< which axis is the sheared x, y, z
-    std::uint32_t near_plane[3]; ///< where in a node the planes are through which the ray enters, bytes
+    std::uint32_t height;        ///< of the stack
+    std::uint32_t next;          ///< reference to be visited
     std::uint32_t order;         ///< where in a node the octant's order is, bytes
     std::uint32_t is_reversed;   ///< the order is to be read from its end
     std::uint32_t ray;           ///< number in the batch
-    std::uint32_t next;          ///< reference to be visited
-    std::uint32_t height;        ///< of the stack
     float t, u, v;               ///< nearest hit so far
     std::uint32_t primitive;     ///< no_primitive: none
+    float origin[4];             ///< in the sheared axes
+    float shear[4];              ///< see RayShear: x, y, z
+    std::uint32_t axis[4];       ///< which axis is the sheared x, y, z
     std::uint64_t nodes, leaves; ///< visited, where they are counted
     std::uint32_t highest;       ///< of the stack, where it is counted
     std::uint32_t reference[wide_stack];

@@ -12,48 +12,75 @@ namespace {
 
 // Kernels read whole registers, and fetch whole nodes ahead.
 constexpr std::size_t slack = 512;
-// Nodes without a box to be hit stay behind this: references to them are never followed but by rays that are
-// too extreme for box tests, which find no primitive there.
-constexpr std::uint32_t null_leaf = wide_leaf | wide_custom;
+// Places of a node that are not used refer to a leaf without a primitive. Only rays that are too extreme for
+// box tests come there.
+constexpr std::uint32_t null_leaf = wide_unit | wide_leaf | wide_other;
 
 constexpr std::size_t round_up(std::size_t n, std::size_t unit) {
     return (n + unit - 1) / unit * unit;
 }
 
-constexpr std::size_t bytes_of_leaf(std::uint32_t count, bool is_custom) {
-    return round_up((is_custom ? 4 : 40) * std::size_t{count}, wide_unit);
-}
-
 // The different primitives of a run of the order: where primitives were split, two pieces may meet in a leaf
 // again.
-class UniqueRun {
+class LeafContents {
   public:
-    UniqueRun(const Tree& tree, const Primitives& primitives, const WideLeaf& leaf) {
+    LeafContents(const Tree& tree, const Primitives& primitives, const WideLeaf& leaf)
+        : is_custom_(leaf.is_custom) {
         for (std::uint32_t i = 0; i < leaf.count; ++i) {
             const std::uint32_t p = tree.order[leaf.first + i];
             if ((primitives.kind(p) == PrimitiveKind::custom) != leaf.is_custom) continue;
-            if (std::find(primitive_, primitive_ + count_, p) == primitive_ + count_)
-                primitive_[count_++] = p;
+            if (std::find(primitive_, primitive_ + count_, p) != primitive_ + count_) continue;
+            primitive_[count_++] = p;
+            is_filtered_ |= primitives.kind(p) == PrimitiveKind::filtered_triangle;
         }
     }
-    std::uint32_t count() const { return count_; }
-    std::uint32_t operator[](std::uint32_t i) const { return primitive_[i]; }
+    /// In memory, and as a reference to that.
+    std::size_t bytes() const {
+        return round_up((is_custom_ ? 4 : 40) * std::size_t{count_} + (is_plain() ? 0 : 4), wide_unit);
+    }
+    std::uint32_t reference_at(std::size_t address) const {
+        const std::uint32_t kind = is_plain() ? (count_ - 1) << wide_count_shift : std::uint32_t{wide_other};
+        return static_cast<std::uint32_t>(address) | wide_leaf | kind;
+    }
+    void write(char* at, const Primitives& primitives) const {
+        if (!is_plain()) {
+            *reinterpret_cast<std::uint32_t*>(at) =
+                count_ | (is_filtered_ ? std::uint32_t{wide_filtered} : 0u);
+            at += 4;
+        }
+        auto* numbers = reinterpret_cast<std::uint32_t*>(at) + (is_custom_ ? 0u : 9 * count_);
+        auto* coordinates = reinterpret_cast<float*>(at);
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            numbers[i] = primitive_[i];
+            if (is_custom_) continue;
+            if (is_filtered_ && primitives.kind(primitive_[i]) == PrimitiveKind::filtered_triangle)
+                numbers[i] |= wide_filtered;
+            const Corners t = primitives.corners(primitive_[i]);
+            const Vec3 corner[3] = {t.a, t.b, t.c};
+            for (std::uint32_t c = 0; c < 3; ++c)
+                for (std::uint32_t axis = 0; axis < 3; ++axis)
+                    coordinates[(3 * c + axis) * count_ + i] = corner[c][static_cast<int>(axis)];
+        }
+    }
 
   private:
+    bool is_plain() const { return !is_custom_ && !is_filtered_; }
+
     std::uint32_t primitive_[Tree::max_leaf_size];
     std::uint32_t count_ = 0;
+    bool is_custom_, is_filtered_ = false;
 };
 
 // Where everything is written, decided before anything is written.
 class Placement {
   public:
     Placement(const Tree& tree, const Primitives& primitives, const CollapsedTree& collapsed)
-        : tree_(tree), primitives_(primitives), next_(wide_unit) {
+        : tree_(tree), primitives_(primitives), next_(2 * wide_unit) {
         if (collapsed.single_leaf.count > 0) {
             root = place_leaf(collapsed.single_leaf);
             return;
         }
-        root = reference_to(round_up(next_, alignof(WideNode)));
+        root = static_cast<std::uint32_t>(round_up(next_, alignof(WideNode)));
         references.resize(collapsed.nodes.size());
         at.resize(collapsed.nodes.size());
         // A node's leaves follow it, so that they are fetched from the same page.
@@ -67,9 +94,8 @@ class Placement {
         for (std::size_t i = 0; i < collapsed.nodes.size(); ++i)
             for (std::size_t k = 0; k < static_cast<std::size_t>(collapsed.nodes[i].count); ++k)
                 if (!collapsed.nodes[i].child[k].is_leaf())
-                    references[i][k] = reference_to(at[collapsed.nodes[i].child[k].node]);
-        if (next_ / wide_unit > wide_address)
-            throw std::length_error("an object of more than 4 GB of triangles");
+                    references[i][k] = static_cast<std::uint32_t>(at[collapsed.nodes[i].child[k].node]);
+        if (next_ > wide_address) throw std::length_error("an object of more than 4 GB of triangles");
     }
 
     std::size_t bytes() const { return next_; }
@@ -78,14 +104,10 @@ class Placement {
     std::vector<std::size_t> at;                          // of the nodes
 
   private:
-    static std::uint32_t reference_to(std::size_t address) {
-        return static_cast<std::uint32_t>(address / wide_unit);
-    }
     std::uint32_t place_leaf(const WideLeaf& leaf) {
-        const std::uint32_t n = UniqueRun(tree_, primitives_, leaf).count();
-        const std::uint32_t reference = wide_leaf | (leaf.is_custom ? wide_custom : 0u) |
-                                        (n - 1) << wide_count_shift | reference_to(next_);
-        next_ += bytes_of_leaf(n, leaf.is_custom);
+        const LeafContents contents(tree_, primitives_, leaf);
+        const std::uint32_t reference = contents.reference_at(next_);
+        next_ += contents.bytes();
         return reference;
     }
 
@@ -93,23 +115,6 @@ class Placement {
     const Primitives& primitives_;
     std::size_t next_;
 };
-
-void write_leaf(char* at, const Tree& tree, const Primitives& primitives, const WideLeaf& leaf) {
-    const UniqueRun run(tree, primitives, leaf);
-    const std::uint32_t n = run.count();
-    auto* numbers = reinterpret_cast<std::uint32_t*>(at) + (leaf.is_custom ? 0u : 9 * n);
-    auto* coordinates = reinterpret_cast<float*>(at);
-    for (std::uint32_t i = 0; i < n; ++i) {
-        numbers[i] = run[i];
-        if (leaf.is_custom) continue;
-        if (primitives.kind(run[i]) == PrimitiveKind::filtered_triangle) numbers[i] |= wide_filtered;
-        const Corners t = primitives.corners(run[i]);
-        const Vec3 corner[3] = {t.a, t.b, t.c};
-        for (std::uint32_t c = 0; c < 3; ++c)
-            for (std::uint32_t axis = 0; axis < 3; ++axis)
-                coordinates[(3 * c + axis) * n + i] = corner[c][static_cast<int>(axis)];
-    }
-}
 
 // In which order a ray of each of four octants of directions meets the children, farthest first; the other
 // four meet them the other way round. Octants: y and z backwards or not, x forwards.
@@ -157,17 +162,16 @@ WideLayout::WideLayout(const Tree& tree, const Primitives& primitives) {
     nodes_ = collapsed.nodes.size();
     depth_ = collapsed.depth;
     cost_ = collapsed.cost;
-    auto address = [&](std::uint32_t reference) {
-        return memory_.data() + static_cast<std::size_t>(reference & wide_address) * wide_unit;
+    auto write_leaf = [&](std::uint32_t reference, const WideLeaf& leaf) {
+        LeafContents(tree, primitives, leaf).write(memory_.data() + (reference & wide_address), primitives);
     };
-    *reinterpret_cast<std::uint32_t*>(address(null_leaf)) = no_primitive;
-    if (collapsed.single_leaf.count > 0) write_leaf(address(root_), tree, primitives, collapsed.single_leaf);
+    *reinterpret_cast<std::uint32_t*>(memory_.data() + (null_leaf & wide_address)) = 0;
+    if (collapsed.single_leaf.count > 0) write_leaf(root_, collapsed.single_leaf);
     parallel_for(collapsed.nodes.size(), 512, [&](std::size_t i) {
         const CollapsedNode& from = collapsed.nodes[i];
         write_node(*new (memory_.data() + placement.at[i]) WideNode, from, placement.references[i]);
         for (std::size_t k = 0; k < static_cast<std::size_t>(from.count); ++k)
-            if (from.child[k].is_leaf())
-                write_leaf(address(placement.references[i][k]), tree, primitives, from.child[k].leaf);
+            if (from.child[k].is_leaf()) write_leaf(placement.references[i][k], from.child[k].leaf);
     });
 }
 

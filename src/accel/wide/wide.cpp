@@ -50,11 +50,14 @@ class Batch {
 
   private:
     bool test(WideSlot& slot, std::uint32_t reference, std::uint32_t candidates) {
-        const char* at = layout_.base() + static_cast<std::size_t>(reference & wide_address) * wide_unit;
-        const std::uint32_t n = ((reference >> wide_count_shift) & 7) + 1;
-        return reference & wide_custom
-                   ? test_customs(slot, reinterpret_cast<const std::uint32_t*>(at), n)
-                   : test_triangles(slot, reinterpret_cast<const float*>(at), n, candidates);
+        const char* at = layout_.base() + (reference & wide_address);
+        if (!(reference & wide_other))
+            return test_triangles(slot, reinterpret_cast<const float*>(at),
+                                  ((reference >> wide_count_shift) & 7) + 1, candidates);
+        const auto* words = reinterpret_cast<const std::uint32_t*>(at);
+        return *words & wide_filtered ? test_triangles(slot, reinterpret_cast<const float*>(words + 1),
+                                                       *words & 0xff, candidates)
+                                      : test_customs(slot, words + 1, *words);
     }
 
     // The ray as far as it is still searched.
@@ -108,7 +111,6 @@ class Batch {
     bool test_customs(WideSlot& slot, const std::uint32_t* numbers, std::uint32_t n) {
         bool changed = false;
         for (std::uint32_t i = 0; i < n; ++i) {
-            if (numbers[i] == no_primitive) continue;
             const Ray ray = ray_of(slot);
             const Intersection best = best_of(slot);
             Intersection hit;

@@ -1,0 +1,145 @@
+/// The test of a leaf's triangles.
+#pragma once
+
+#include "accel/wide/kernel_ray.h"
+
+namespace {
+
+using F = Lanes::F;
+
+/// A corner of eight triangles, seen from the ray's origin and sheared so that the ray is the z axis.
+struct Corner {
+    F x, y, z;
+};
+
+/// The bound of t's error in intersect_triangle, times the determinant: where t is no larger than that, the
+/// exact test computes it anew.
+ALHAZEN_INLINE F error_of_distance(const Corner& a, const Corner& b, const Corner& c, F sz, F largest_edge) {
+    auto largest = [](F p, F q, F r) {
+        return Lanes::max(Lanes::max(Lanes::magnitude(p), Lanes::magnitude(q)), Lanes::magnitude(r));
+    };
+    // 2^-24, and a little for the rounding of this.
+    constexpr float unit = 0x1.02p-24f;
+    const F x = largest(a.x, b.x, c.x), y = largest(a.y, b.y, c.y),
+            z = Lanes::mul(largest(a.z, b.z, c.z), Lanes::magnitude(sz));
+    const F x_error = Lanes::add(x, z), y_error = Lanes::add(y, z); // in 5 units
+    const F cross = Lanes::add(Lanes::mul(y_error, x), Lanes::mul(x_error, y));
+    const F edge_error = Lanes::add(Lanes::mul(Lanes::all(4 * unit), Lanes::mul(x, y)),
+                                    Lanes::mul(Lanes::all(10 * unit), cross));
+    const F product =
+        Lanes::mul(largest_edge, z); // counted three times for its rounding, three for that of z
+    return Lanes::add(Lanes::mul(Lanes::all(18 * unit), product),
+                      Lanes::mul(Lanes::all(3), Lanes::mul(edge_error, z)));
+}
+
+/// What a leaf's triangles have to say.
+struct Candidates {
+    std::uint32_t hit = 0;     ///< bits of those that are met at 0 < t < tmax
+    std::uint32_t special = 0; ///< of those for which the exact test must be asked
+    F t, u, v;                 ///< of those that are met
+};
+
+/// The edge functions of Woop, Benthin and Wald, in the same operations as in intersect_triangle, so that
+/// they come out the same, bit by bit. Rare cases are left to that function: edges that are met exactly,
+/// which it decides in double precision, and distances no larger than their error. False when no triangle can
+/// be met.
+ALHAZEN_INLINE bool test_triangles(const WideSlot& slot, const float* leaf, std::uint32_t n,
+                                   Candidates& found) {
+    const std::size_t x = slot.axis[0] * n, y = slot.axis[1] * n, z = slot.axis[2] * n;
+    const F ox = Lanes::all(slot.origin[0]), oy = Lanes::all(slot.origin[1]), oz = Lanes::all(slot.origin[2]);
+    const F sx = Lanes::all(slot.shear[0]), sy = Lanes::all(slot.shear[1]);
+    auto corner = [&](const float* p) __attribute__((always_inline)) {
+        const F qz = Lanes::sub(Lanes::load(p + z), oz);
+        return Corner{Lanes::sub(Lanes::sub(Lanes::load(p + x), ox), Lanes::mul(sx, qz)),
+                      Lanes::sub(Lanes::sub(Lanes::load(p + y), oy), Lanes::mul(sy, qz)), qz};
+    };
+    auto edge = [](const Corner& p, const Corner& q) __attribute__((always_inline)) {
+        return Lanes::sub(Lanes::mul(p.x, q.y), Lanes::mul(p.y, q.x));
+    };
+    const Corner a = corner(leaf), b = corner(leaf + std::size_t{3} * n),
+                 c = corner(leaf + std::size_t{6} * n);
+    const F ea = edge(b, c), eb = edge(c, a), ec = edge(a, b);
+    const F zero = Lanes::all(0);
+    const F least = Lanes::min(Lanes::min(ea, eb), ec), most = Lanes::max(Lanes::max(ea, eb), ec);
+    const std::uint32_t bits = (Lanes::at_most(zero, least) | Lanes::at_most(most, zero)) & ((1u << n) - 1);
+    if (bits == 0) return false;
+
+    // From here on as in intersect_triangle, again in the same operations.
+    const F sz = Lanes::all(slot.shear[2]);
+    const F determinant = Lanes::add(Lanes::add(ea, eb), ec);
+    const F inverse = Lanes::divide(Lanes::all(1), determinant);
+    const F sum =
+        Lanes::add(Lanes::add(Lanes::mul(ea, Lanes::mul(a.z, sz)), Lanes::mul(eb, Lanes::mul(b.z, sz))),
+                   Lanes::mul(ec, Lanes::mul(c.z, sz)));
+    const F largest_edge = Lanes::max(Lanes::magnitude(least), Lanes::magnitude(most));
+    const F error = error_of_distance(a, b, c, sz, largest_edge);
+    const std::uint32_t edge_is_met = Lanes::zero_or_nan(Lanes::mul(Lanes::mul(ea, eb), ec));
+    const std::uint32_t is_certain = Lanes::below(error, Lanes::magnitude(sum)) & ~edge_is_met &
+                                     Lanes::below(Lanes::magnitude(inverse), Lanes::all(largest_float));
+    found.t = Lanes::mul(sum, inverse);
+    found.special = bits & ~is_certain;
+    found.hit =
+        bits & is_certain & Lanes::below(zero, found.t) & Lanes::below(found.t, Lanes::all(slot.tmax));
+    found.u = Lanes::mul(eb, inverse);
+    found.v = Lanes::mul(ec, inverse);
+    return true;
+}
+
+/// Takes the nearest of the hits, and of those at the same distance the one with the lowest number.
+ALHAZEN_INLINE void take_nearest(WideSlot& slot, const Candidates& found, const std::uint32_t* numbers) {
+    alignas(32) float t[8], u[8], v[8];
+    Lanes::store(t, found.t);
+    Lanes::store(u, found.u);
+    Lanes::store(v, found.v);
+    for (std::uint32_t bits = found.hit; bits; bits &= bits - 1) {
+        const auto i = static_cast<std::uint32_t>(__builtin_ctz(bits));
+        const bool is_nearer = t[i] < slot.t || (t[i] == slot.t && numbers[i] < slot.primitive);
+        if (!is_nearer) continue;
+        slot.t = t[i];
+        slot.u = u[i];
+        slot.v = v[i];
+        slot.primitive = numbers[i];
+    }
+    // One step more, so that a hit at the same distance is still found.
+    std::uint32_t step_more;
+    __builtin_memcpy(&step_more, &slot.t, sizeof step_more);
+    ++step_more;
+    __builtin_memcpy(&slot.tmax, &step_more, sizeof step_more);
+}
+
+/// Hits of filtered triangles are for the callback as well.
+ALHAZEN_INLINE void set_filtered_aside(Candidates& found, const std::uint32_t* numbers) {
+    for (std::uint32_t bits = found.hit; bits; bits &= bits - 1) {
+        const auto i = static_cast<std::uint32_t>(__builtin_ctz(bits));
+        if (numbers[i] & alhazen::wide_filtered) found.hit ^= 1u << i, found.special |= 1u << i;
+    }
+}
+
+/// Tests a leaf; true when the nearest hit has changed, or, for any, when there is a hit.
+template <bool any>
+ALHAZEN_INLINE bool visit_leaf(const WideQuery& query, const char* base, WideSlot& slot, std::uint32_t leaf) {
+    const auto* corners = reinterpret_cast<const float*>(base + (leaf & alhazen::wide_address));
+    std::uint32_t n = ((leaf >> alhazen::wide_count_shift) & 7) + 1;
+    const bool is_other = leaf & alhazen::wide_other;
+    if (is_other) [[unlikely]] {
+        std::uint32_t word;
+        __builtin_memcpy(&word, corners++, sizeof word);
+        if (!(word & alhazen::wide_filtered)) return query.test(query.owner, slot, leaf, 0xff);
+        n = word & 0xff;
+    }
+    const auto* numbers = reinterpret_cast<const std::uint32_t*>(corners + std::size_t{9} * n);
+    Candidates found;
+    if (!test_triangles(slot, corners, n, found)) return false;
+    if (is_other) [[unlikely]]
+        set_filtered_aside(found, numbers);
+    if (found.hit) {
+        if constexpr (any) return true;
+        take_nearest(slot, found, numbers);
+    }
+    bool has_changed = found.hit != 0;
+    if (found.special) [[unlikely]]
+        has_changed |= query.test(query.owner, slot, leaf, found.special);
+    return has_changed;
+}
+
+} // namespace
