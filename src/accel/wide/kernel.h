@@ -59,6 +59,10 @@ struct alignas(64) WideSlot {
     std::uint32_t axis[4];       ///< which axis is the sheared x, y, z
     std::uint64_t nodes, leaves; ///< visited, where they are counted
     std::uint32_t highest;       ///< of the stack, where it is counted
+};
+
+/// What a ray has still to visit: references, and where it enters what they refer to.
+struct WideStack {
     std::uint32_t reference[wide_stack];
     float entry[wide_stack];
 };

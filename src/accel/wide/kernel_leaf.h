@@ -1,11 +1,9 @@
 /// The test of a leaf's triangles.
 #pragma once
 
-#include "accel/wide/kernel_ray.h"
+#include "accel/wide/kernel_boxes.h"
 
 namespace {
-
-using F = Lanes::F;
 
 /// A corner of eight triangles, seen from the ray's origin and sheared so that the ray is the z axis.
 struct Corner {
@@ -32,40 +30,28 @@ ALHAZEN_INLINE F error_of_distance(const Corner& a, const Corner& b, const Corne
                       Lanes::mul(Lanes::all(3), Lanes::mul(edge_error, z)));
 }
 
-/// What a leaf's triangles have to say.
+/// What came of it, a lane each.
 struct Candidates {
     std::uint32_t hit = 0;     ///< bits of those that are met at 0 < t < tmax
     std::uint32_t special = 0; ///< of those for which the exact test must be asked
-    F t, u, v;                 ///< of those that are met
+    F t, u, v;
 };
 
 /// The edge functions of Woop, Benthin and Wald, in the same operations as in intersect_triangle, so that
 /// they come out the same, bit by bit. Rare cases are left to that function: edges that are met exactly,
-/// which it decides in double precision, and distances no larger than their error. False when no triangle can
-/// be met.
-ALHAZEN_INLINE bool test_triangles(const WideSlot& slot, const float* leaf, std::uint32_t n,
-                                   Candidates& found) {
-    const std::size_t x = slot.axis[0] * n, y = slot.axis[1] * n, z = slot.axis[2] * n;
-    const F ox = Lanes::all(slot.origin[0]), oy = Lanes::all(slot.origin[1]), oz = Lanes::all(slot.origin[2]);
-    const F sx = Lanes::all(slot.shear[0]), sy = Lanes::all(slot.shear[1]);
-    auto corner = [&](const float* p) __attribute__((always_inline)) {
-        const F qz = Lanes::sub(Lanes::load(p + z), oz);
-        return Corner{Lanes::sub(Lanes::sub(Lanes::load(p + x), ox), Lanes::mul(sx, qz)),
-                      Lanes::sub(Lanes::sub(Lanes::load(p + y), oy), Lanes::mul(sy, qz)), qz};
-    };
+/// which it decides in double precision, and distances no larger than their error. Lanes are triangles, or
+/// rays; those whose bits are not set are not looked at. False when nothing can be met.
+ALHAZEN_INLINE bool test_corners(const Corner& a, const Corner& b, const Corner& c, F sz, F tmax,
+                                 std::uint32_t lanes, Candidates& found) {
     auto edge = [](const Corner& p, const Corner& q) __attribute__((always_inline)) {
         return Lanes::sub(Lanes::mul(p.x, q.y), Lanes::mul(p.y, q.x));
     };
-    const Corner a = corner(leaf), b = corner(leaf + std::size_t{3} * n),
-                 c = corner(leaf + std::size_t{6} * n);
     const F ea = edge(b, c), eb = edge(c, a), ec = edge(a, b);
     const F zero = Lanes::all(0);
     const F least = Lanes::min(Lanes::min(ea, eb), ec), most = Lanes::max(Lanes::max(ea, eb), ec);
-    const std::uint32_t bits = (Lanes::at_most(zero, least) | Lanes::at_most(most, zero)) & ((1u << n) - 1);
+    const std::uint32_t bits = (Lanes::at_most(zero, least) | Lanes::at_most(most, zero)) & lanes;
     if (bits == 0) return false;
 
-    // From here on as in intersect_triangle, again in the same operations.
-    const F sz = Lanes::all(slot.shear[2]);
     const F determinant = Lanes::add(Lanes::add(ea, eb), ec);
     const F inverse = Lanes::divide(Lanes::all(1), determinant);
     const F sum =
@@ -78,33 +64,64 @@ ALHAZEN_INLINE bool test_triangles(const WideSlot& slot, const float* leaf, std:
                                      Lanes::below(Lanes::magnitude(inverse), Lanes::all(largest_float));
     found.t = Lanes::mul(sum, inverse);
     found.special = bits & ~is_certain;
-    found.hit =
-        bits & is_certain & Lanes::below(zero, found.t) & Lanes::below(found.t, Lanes::all(slot.tmax));
+    found.hit = bits & is_certain & Lanes::below(zero, found.t) & Lanes::below(found.t, tmax);
     found.u = Lanes::mul(eb, inverse);
     found.v = Lanes::mul(ec, inverse);
     return true;
 }
 
-/// Takes the nearest of the hits, and of those at the same distance the one with the lowest number.
-ALHAZEN_INLINE void take_nearest(WideSlot& slot, const Candidates& found, const std::uint32_t* numbers) {
-    alignas(32) float t[8], u[8], v[8];
-    Lanes::store(t, found.t);
-    Lanes::store(u, found.u);
-    Lanes::store(v, found.v);
-    for (std::uint32_t bits = found.hit; bits; bits &= bits - 1) {
-        const auto i = static_cast<std::uint32_t>(__builtin_ctz(bits));
-        const bool is_nearer = t[i] < slot.t || (t[i] == slot.t && numbers[i] < slot.primitive);
-        if (!is_nearer) continue;
-        slot.t = t[i];
-        slot.u = u[i];
-        slot.v = v[i];
-        slot.primitive = numbers[i];
-    }
-    // One step more, so that a hit at the same distance is still found.
+/// One ray, and a leaf's n triangles.
+ALHAZEN_INLINE bool test_triangles(const WideSlot& slot, const float* leaf, std::uint32_t n,
+                                   Candidates& found) {
+    const std::size_t x = slot.axis[0] * n, y = slot.axis[1] * n, z = slot.axis[2] * n;
+    const F ox = Lanes::all(slot.origin[0]), oy = Lanes::all(slot.origin[1]), oz = Lanes::all(slot.origin[2]);
+    const F sx = Lanes::all(slot.shear[0]), sy = Lanes::all(slot.shear[1]);
+    auto corner = [&](const float* p) __attribute__((always_inline)) {
+        const F qz = Lanes::sub(Lanes::load(p + z), oz);
+        return Corner{Lanes::sub(Lanes::sub(Lanes::load(p + x), ox), Lanes::mul(sx, qz)),
+                      Lanes::sub(Lanes::sub(Lanes::load(p + y), oy), Lanes::mul(sy, qz)), qz};
+    };
+    const std::size_t next = std::size_t{3} * n;
+    return test_corners(corner(leaf), corner(leaf + next), corner(leaf + 2 * next), Lanes::all(slot.shear[2]),
+                        Lanes::all(slot.tmax), (1u << n) - 1, found);
+}
+
+/// Takes a hit if it is nearer than the one so far, or as near with a lower number.
+ALHAZEN_INLINE void take_if_nearer(WideSlot& slot, float t, float u, float v, std::uint32_t number) {
+    const bool is_nearer = t < slot.t || (t == slot.t && number < slot.primitive);
+    if (!is_nearer) return;
+    slot.t = t;
+    slot.u = u;
+    slot.v = v;
+    slot.primitive = number;
+}
+
+/// The search goes on to one step beyond the nearest hit, so that a hit at the same distance is still found.
+ALHAZEN_INLINE void shorten(WideSlot& slot) {
     std::uint32_t step_more;
     __builtin_memcpy(&step_more, &slot.t, sizeof step_more);
     ++step_more;
     __builtin_memcpy(&slot.tmax, &step_more, sizeof step_more);
+}
+
+/// The hits' numbers, lane by lane.
+struct HitLanes {
+    alignas(32) float t[8], u[8], v[8];
+
+    ALHAZEN_INLINE explicit HitLanes(const Candidates& found) {
+        Lanes::store(t, found.t);
+        Lanes::store(u, found.u);
+        Lanes::store(v, found.v);
+    }
+};
+
+ALHAZEN_INLINE void take_nearest(WideSlot& slot, const Candidates& found, const std::uint32_t* numbers) {
+    const HitLanes lanes(found);
+    for (std::uint32_t bits = found.hit; bits; bits &= bits - 1) {
+        const auto i = static_cast<std::uint32_t>(__builtin_ctz(bits));
+        take_if_nearer(slot, lanes.t[i], lanes.u[i], lanes.v[i], numbers[i]);
+    }
+    shorten(slot);
 }
 
 /// Hits of filtered triangles are for the callback as well.

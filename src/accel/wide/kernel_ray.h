@@ -9,6 +9,7 @@ using alhazen::WideNode;
 using alhazen::WideQuery;
 using alhazen::WideRay;
 using alhazen::WideSlot;
+using alhazen::WideStack;
 
 constexpr std::uint32_t no_hit = 0xffffffffu;
 constexpr float largest_float = 0x1.fffffep127f;
@@ -89,11 +90,15 @@ ALHAZEN_INLINE bool begin(const WideQuery& query, WideSlot& slot, std::uint32_t 
     slot.ray = number;
     slot.t = __builtin_inff();
     slot.primitive = no_hit;
-    slot.reference[0] = alhazen::wide_done;
-    slot.entry[0] = -__builtin_inff();
     slot.height = 1;
     slot.next = query.root;
     return true;
+}
+
+/// What is below everything on a stack.
+ALHAZEN_INLINE void put_sentinel(WideStack& stack) {
+    stack.reference[0] = alhazen::wide_done;
+    stack.entry[0] = -__builtin_inff();
 }
 
 template <bool any>

@@ -15,18 +15,48 @@ using namespace accel_test;
 
 class Kernels : public testing::TestWithParam<std::string> {
   protected:
-    void expect_same_as_stack(const Triangles& triangles, float scale, std::uint64_t seed) {
+    using RayMaker = std::vector<Ray>(const Triangles& triangles, float scale, Rng& rng);
+
+    static std::vector<Ray> rays_of_all_kinds(const Triangles& triangles, float scale, Rng& rng) {
+        std::vector<Ray> rays;
+        for (int i = 0; i < 6000; ++i) {
+            rays.push_back(random_ray(triangles, scale, rng));
+            if (i % 4 == 0) rays.back().tmax = rng.uniform() * scale;
+        }
+        return rays;
+    }
+
+    // Tiles of rays from one point or a small lens, some through vertices, wide and narrow; among them tiles
+    // that are none, rays that hit nothing by what they are, and a tile that is cut short.
+    static std::vector<Ray> tiles_of_rays(const Triangles& triangles, float scale, Rng& rng) {
+        std::vector<Ray> rays;
+        for (int tile = 0; tile < 60; ++tile) {
+            const Corners& target = triangles.list[rng.below(triangles.count())];
+            const Vec3 o = random_point(rng, tile % 2 ? 3 * scale : scale);
+            const Vec3 d = (target.a - o) * (0.5f + rng.uniform());
+            const float width = std::pow(10.0f, -5 * rng.uniform()) * 0.1f * length(d);
+            const float lens = tile % 3 == 0 ? 0.01f * scale : 0;
+            for (int i = 0; i < (tile == 59 ? 40 : 64); ++i) {
+                Ray ray(o + random_point(rng, lens), d + random_point(rng, width));
+                if (i % 9 == 0) ray.d = target.a - ray.o;
+                if (i % 4 == 0) ray.tmax = rng.uniform() * 4;
+                if (tile % 11 == 10 && i == 30) ray.d.x = std::numeric_limits<float>::quiet_NaN();
+                if (tile % 13 == 12 && i % 2) ray = random_ray(triangles, scale, rng);
+                rays.push_back(ray);
+            }
+        }
+        return rays;
+    }
+
+    void expect_same_as_stack(const Triangles& triangles, float scale, std::uint64_t seed,
+                              RayMaker& make_rays = rays_of_all_kinds) {
         AccelChoice choice{"sah", "wide", {}};
         choice.walk_options.instructions = GetParam();
         auto wide = make_structure(triangles, choice),
              stack = make_structure(triangles, {"sah", "stack", {}});
         TriangleTests tests(triangles);
         Rng rng(seed);
-        std::vector<Ray> rays;
-        for (int i = 0; i < 6000; ++i) {
-            rays.push_back(random_ray(triangles, scale, rng));
-            if (i % 4 == 0) rays.back().tmax = rng.uniform() * scale;
-        }
+        std::vector<Ray> rays = make_rays(triangles, scale, rng);
         std::vector<Intersection> hits(rays.size());
         std::vector<std::uint8_t> blocked(rays.size());
         wide->closest(rays, hits, tests);
@@ -63,6 +93,23 @@ TEST_P(Kernels, GiveTheSameBitsForPrimitivesOfAllKinds) {
                           : i % 5 < 4 ? PrimitiveKind::filtered_triangle
                                       : PrimitiveKind::custom);
     expect_same_as_stack(t, 1, 7);
+}
+
+TEST_P(Kernels, GiveTheSameBitsForRaysThatGoTheSameWay) {
+    for (float scale : {1e-6f, 1.0f, 1e6f})
+        for (std::size_t n : {1u, 300u, 20000u}) {
+            Triangles t = random_triangles(n, scale, (n > 1000 ? 0.03f : 0.3f) * scale, 5);
+            for (std::size_t i = 0; i < n; i += 5) t.list.push_back(t.list[i]); // ties
+            expect_same_as_stack(t, scale, n, tiles_of_rays);
+        }
+    Triangles mixed = random_triangles(3000, 1, 0.1f, 6);
+    for (std::size_t i = 0; i < mixed.list.size(); ++i)
+        mixed.kinds.push_back(i % 5 < 3   ? PrimitiveKind::triangle
+                              : i % 5 < 4 ? PrimitiveKind::filtered_triangle
+                                          : PrimitiveKind::custom);
+    expect_same_as_stack(mixed, 1, 7, tiles_of_rays);
+    // Large triangles, which all rays of a tile meet.
+    expect_same_as_stack(random_triangles(40, 1, 2, 9), 1, 8, tiles_of_rays);
 }
 
 std::vector<std::string> supported() {
