@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
+
+#include "base/hash.h"
 
 namespace alhazen {
 
@@ -153,14 +156,24 @@ class Upsampler {
         }
     }
 
-    /// rgb in [0, 1], not grey.
+    /// rgb in [0, 1], not grey. Most colours are reached from the table in a Newton step or two; the careful
+    /// way is for those that are not.
     SigmoidCoefficients find(Vec3 rgb) const {
-        return to_float(best_of(Vec3d(rgb), interpolate(rgb), polish_steps));
+        const Vec3d start = interpolate(rgb);
+        Vec3d c = start;
+        for (int i = 0; i < newton_steps; ++i) {
+            const Color color = color_of(quadrature_, to_float(c));
+            const Vec3d residual = color.rgb - Vec3d(rgb);
+            if (largest(residual) <= good_enough) return to_float(c);
+            c -= color.by_coefficient.inverse() * residual;
+            if (!(largest(c) < coefficient_limit)) break;
+        }
+        return to_float(best_of(Vec3d(rgb), start, polish_steps));
     }
 
   private:
     static constexpr int resolution = 20;
-    static constexpr int fit_steps = 25, polish_steps = 6;
+    static constexpr int newton_steps = 4, fit_steps = 25, polish_steps = 6;
     static constexpr double good_enough = 1e-5; ///< largest difference in linear RGB
 
     static float smoothstep(float x) { return x * x * (3 - 2 * x); }
@@ -313,8 +326,20 @@ SigmoidCoefficients upsample(const RgbColorSpace& space, Vec3 rgb) {
 }
 
 void upsample(const RgbColorSpace& space, std::span<const Vec3> rgb, std::span<SigmoidCoefficients> out) {
-    for (std::size_t i = 0; i < rgb.size(); ++i)
-        out[i] = i > 0 && rgb[i] == rgb[i - 1] ? out[i - 1] : upsample(space, rgb[i]);
+    // Pictures of eight bits show the same colours again and again.
+    struct Known {
+        Vec3 rgb{-1, -1, -1};
+        SigmoidCoefficients coefficients;
+    };
+    std::vector<Known> known(std::min<std::size_t>(std::bit_ceil(rgb.size()), 4096));
+    for (std::size_t i = 0; i < rgb.size(); ++i) {
+        Known& k =
+            known[hash_of(std::bit_cast<std::uint32_t>(rgb[i].x), std::bit_cast<std::uint32_t>(rgb[i].y),
+                          std::bit_cast<std::uint32_t>(rgb[i].z)) &
+                  (known.size() - 1)];
+        if (!(k.rgb == rgb[i])) k = {rgb[i], upsample(space, rgb[i])};
+        out[i] = k.coefficients;
+    }
 }
 
 } // namespace alhazen

@@ -35,7 +35,7 @@ struct SigmoidCoefficients {
 /// call for a space fits its table of starting points, which takes tens of milliseconds. Thread-safe and
 /// deterministic.
 SigmoidCoefficients upsample(const RgbColorSpace& space, Vec3 rgb);
-/// The same for many colours; out must be as long as rgb. Equal neighbours are computed once.
+/// The same for many colours; out must be as long as rgb. Colours that come again soon are computed once.
 void upsample(const RgbColorSpace& space, std::span<const Vec3> rgb, std::span<SigmoidCoefficients> out);
 
 } // namespace alhazen
