@@ -20,6 +20,7 @@ constexpr Schedule schedules[] = {
     {"default", [](RenderSettings&) {}},
 };
 
+// Of processor time, since other programs may be running.
 double samples_per_second(const std::string& file, const Schedule& schedule, int spp) {
     Messages messages;
     messages.lenient = true;
@@ -29,9 +30,10 @@ double samples_per_second(const std::string& file, const Schedule& schedule, int
     settings.integrator = "path";
     schedule.apply(settings);
     auto world = build_world(read_scene(file, messages), settings, messages);
-    RenderStats stats = render(*world, settings, {});
+    RenderStats stats;
+    const double seconds = processor_seconds_of([&] { stats = render(*world, settings, {}); });
     Rect2i pixels = world->film->pixels();
-    return static_cast<double>(pixels.width()) * pixels.height() * stats.samples / stats.seconds;
+    return static_cast<double>(pixels.width()) * pixels.height() * stats.samples / seconds;
 }
 
 } // namespace
@@ -42,7 +44,7 @@ Json bench_rendering(const std::string& file, const BenchOptions& options) {
         for (std::size_t s = 0; s < std::size(schedules); ++s)
             rates[s].push_back(samples_per_second(file, schedules[s], options.spp));
     Json records = Json::array();
-    fmt::print("\n{}: whole pictures, {} samples a pixel, 2 threads\n", file, options.spp);
+    fmt::print("\n{}: whole pictures, {} samples a pixel, 2 threads; by processor time\n", file, options.spp);
     for (std::size_t s = 0; s < std::size(schedules); ++s) {
         std::vector<double> ratios;
         for (std::size_t i = 0; i < rates[s].size(); ++i) ratios.push_back(rates[s][i] / rates[0][i]);

@@ -6,8 +6,9 @@
 
 namespace alhazen {
 
-double seconds_of(int threads, const std::function<void()>& work) {
-    clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
+namespace {
+
+double seconds_by(clockid_t clock, const std::function<void()>& work) {
     timespec start{}, end{};
     clock_gettime(clock, &start);
     work();
@@ -15,6 +16,16 @@ double seconds_of(int threads, const std::function<void()>& work) {
     double seconds = static_cast<double>(end.tv_sec - start.tv_sec);
     // Never 0: others divide by it.
     return std::max(seconds + 1e-9 * static_cast<double>(end.tv_nsec - start.tv_nsec), 1e-9);
+}
+
+} // namespace
+
+double seconds_of(int threads, const std::function<void()>& work) {
+    return seconds_by(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, work);
+}
+
+double processor_seconds_of(const std::function<void()>& work) {
+    return seconds_by(CLOCK_PROCESS_CPUTIME_ID, work);
 }
 
 double median_of(std::vector<double> values) {

@@ -10,6 +10,9 @@ namespace alhazen {
 /// not count; else, by the wall clock.
 double seconds_of(int threads, const std::function<void()>& work);
 
+/// The processor time of all threads of this program: not what other programs' turns take.
+double processor_seconds_of(const std::function<void()>& work);
+
 /// The middle of the values, or the mean of the two in the middle; 0 for none.
 double median_of(std::vector<double> values);
 /// (largest - smallest) / median: how far to trust it; 0 for none.
