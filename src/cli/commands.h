@@ -23,6 +23,7 @@ void add_info_command(CLI::App& app, Action& action);
 void add_accel_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_diff_command(CLI::App& app, Action& action);
+void add_compare_command(CLI::App& app, Action& action);
 void add_help_command(CLI::App& app, Action& action);
 
 } // namespace alhazen

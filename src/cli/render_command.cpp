@@ -15,6 +15,7 @@
 #include "base/threads.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/show.h"
 #include "formats/format.h"
@@ -60,24 +61,6 @@ std::int64_t peak_memory_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return std::int64_t{usage.ru_maxrss} * 1024;
-}
-
-// Says what is wrong with an output before an hour of rendering rather than after it.
-void check_output(const std::string& file) {
-    std::filesystem::path path(file);
-    if (!has_image_suffix(path)) {
-        std::string known;
-        for (const std::string& suffix : image_suffixes()) known += (known.empty() ? "" : ", ") + suffix;
-        throw std::runtime_error(
-            fmt::format("cannot write \"{}\": the suffix must be one of {}", file, known));
-    }
-    std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder))
-        throw std::runtime_error(
-            fmt::format("cannot write \"{}\": there is no folder \"{}\"", file, folder.string()));
-    if (access(folder.c_str(), W_OK) != 0)
-        throw std::runtime_error(
-            fmt::format("cannot write \"{}\": no permission in folder \"{}\"", file, folder.string()));
 }
 
 void write_outputs(const World& world, const Image& image, const std::vector<std::string>& outputs) {
@@ -160,7 +143,7 @@ std::filesystem::path picture_for_viewer(const World& world, const Image& image,
 }
 
 int run_render(RenderOptions& options) {
-    for (const std::string& file : options.outputs) check_output(file);
+    for (const std::string& file : options.outputs) check_picture_output(file);
     if (!options.stats_file.empty()) {
         auto folder = std::filesystem::path(options.stats_file).parent_path();
         if (!folder.empty() && !std::filesystem::is_directory(folder))
@@ -184,7 +167,7 @@ int run_render(RenderOptions& options) {
     if (options.outputs.empty()) {
         std::string own = world->film->filename();
         options.outputs = {own.empty() ? scene_stem(options.scene) + ".exr" : own};
-        check_output(options.outputs.front());
+        check_picture_output(options.outputs.front());
     }
 
     RenderStats stats = render_with_progress(*world, options);

@@ -1,4 +1,4 @@
-/// alhazen info, convert, diff and help.
+/// alhazen info, compare, convert, diff and help.
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -55,6 +55,39 @@ TEST_F(Commands, ConvertChangesFormatExposureAndCurve) {
     EXPECT_THAT(alhazen("convert none.png b.png").err, HasSubstr("none.png: no such file"));
     EXPECT_THAT(alhazen("convert scene.pbrt b.png").err, HasSubstr("scene.pbrt: "));
     EXPECT_EQ(alhazen("convert a.pfm b.png --tonemap film").exit_code, 2);
+}
+
+TEST_F(Commands, CompareShowsOneSceneInSeveralWays) {
+    Outcome o = alhazen(
+        "compare scene.pbrt --integrators whitted,path:lbvh/stack,path --spp 2 -o c.png --json c.json");
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    for (const char* text : {"whitted", "path:lbvh/stack", "FLIP to path", "c.png: 3 pictures side by side"})
+        EXPECT_THAT(o.out, HasSubstr(text));
+    Image sheet = read_image(path("c.png"));
+    EXPECT_GT(sheet.width(), 2 * 32);
+    EXPECT_GT(sheet.height(), 2 * 24);
+    auto json = nlohmann::json::parse(file_text(path("c.json")));
+    ASSERT_EQ(json.size(), 3u);
+    EXPECT_EQ(json[1]["integrator"], "path:lbvh/stack");
+    EXPECT_EQ(json[1]["samples_per_pixel"], 2);
+    // Another structure, the same bits; another integrator, another picture.
+    EXPECT_EQ(json[1]["flip"], 0);
+    EXPECT_GT(json[0]["flip"], 0.01);
+}
+
+TEST_F(Commands, CompareSaysWhatIsWrong) {
+    auto expect_error = [&](const std::string& arguments, const std::string& message) {
+        Outcome o = alhazen("compare " + arguments);
+        EXPECT_EQ(o.exit_code, 2) << arguments;
+        EXPECT_THAT(o.err, HasSubstr(message)) << arguments;
+    };
+    expect_error("scene.pbrt --integrators whited",
+                 "unknown integrator \"whited\" (did you mean \"whitted\"?)");
+    expect_error("scene.pbrt --integrators path:sahh", "\"path:sahh\": unknown builder \"sahh\"");
+    expect_error("scene.pbrt --integrator path", "--integrator names one");
+    expect_error("scene.pbrt -o c.txt", "cannot write \"c.txt\"");
+    expect_error("none.pbrt", "none.pbrt");
+    EXPECT_FALSE(exists("compare.png"));
 }
 
 TEST_F(Commands, DiffPrintsEveryMetricAndJudges) {
