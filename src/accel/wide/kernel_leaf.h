@@ -96,12 +96,14 @@ ALHAZEN_INLINE void take_if_nearer(WideSlot& slot, float t, float u, float v, st
     slot.primitive = number;
 }
 
-/// The search goes on to one step beyond the nearest hit, so that a hit at the same distance is still found.
-ALHAZEN_INLINE void shorten(WideSlot& slot) {
-    std::uint32_t step_more;
-    __builtin_memcpy(&step_more, &slot.t, sizeof step_more);
-    ++step_more;
-    __builtin_memcpy(&slot.tmax, &step_more, sizeof step_more);
+/// Where the search goes on to: one step beyond the nearest hit, so that a hit at the same distance is still
+/// found.
+ALHAZEN_INLINE float one_step_beyond(float t) {
+    std::uint32_t bits;
+    __builtin_memcpy(&bits, &t, sizeof bits);
+    ++bits;
+    __builtin_memcpy(&t, &bits, sizeof t);
+    return t;
 }
 
 /// The hits' numbers, lane by lane.
@@ -121,7 +123,7 @@ ALHAZEN_INLINE void take_nearest(WideSlot& slot, const Candidates& found, const 
         const auto i = static_cast<std::uint32_t>(__builtin_ctz(bits));
         take_if_nearer(slot, lanes.t[i], lanes.u[i], lanes.v[i], numbers[i]);
     }
-    shorten(slot);
+    slot.tmax = one_step_beyond(slot.t);
 }
 
 /// Hits of filtered triangles are for the callback as well.

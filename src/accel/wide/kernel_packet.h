@@ -58,23 +58,53 @@ struct PacketInterval {
     }
 };
 
-/// What tests of eight rays at a time read; see WideSlot.
+/// What tests of eight rays at a time read, and what they found; see WideRay and WideSlot.
 struct alignas(64) PacketRays {
-    float enter_scale[3][packet_size], enter_offset[3][packet_size];
-    float leave_scale[3][packet_size], leave_offset[3][packet_size];
-    float origin[3][packet_size], shear[3][packet_size];
-    float tmax[packet_size]; ///< negative: no ray
+    using Lane = float[packet_size];
 
-    ALHAZEN_INLINE void set(std::uint32_t i, const WideSlot& slot) {
+    Lane o[3], d[3];
+    Lane tmax; ///< where the search ends by now; negative: no ray
+    Lane enter_scale[3], enter_offset[3], leave_scale[3], leave_offset[3];
+    Lane shear[3];
+    Lane t, u, v;
+    std::uint32_t primitive[packet_size];
+
+    ALHAZEN_INLINE void set(std::uint32_t i, const WideRay& ray) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            enter_scale[axis][i] = slot.enter_scale[axis];
-            enter_offset[axis][i] = slot.enter_offset[axis];
-            leave_scale[axis][i] = slot.leave_scale[axis];
-            leave_offset[axis][i] = slot.leave_offset[axis];
-            origin[axis][i] = slot.origin[axis];
-            shear[axis][i] = slot.shear[axis];
+            o[axis][i] = ray.o[axis];
+            d[axis][i] = ray.d[axis];
         }
-        tmax[i] = slot.tmax;
+        tmax[i] = ray.tmax;
+        t[i] = __builtin_inff();
+        primitive[i] = no_hit;
+    }
+    ALHAZEN_INLINE bool is_nearer(std::uint32_t i, float distance, std::uint32_t number) const {
+        return distance < t[i] || (distance == t[i] && number < primitive[i]);
+    }
+};
+
+/// The least and the largest of a packet's numbers.
+struct Extent {
+    float least, most;
+
+    ALHAZEN_INLINE explicit Extent(const float* values) {
+        F low = Lanes::load(values), high = low;
+        for (std::size_t i = 8; i < packet_size; i += 8) {
+            low = Lanes::min(low, Lanes::load(values + i));
+            high = Lanes::max(high, Lanes::load(values + i));
+        }
+        float lows[8], highs[8];
+        Lanes::store(lows, low);
+        Lanes::store(highs, high);
+        least = lows[0], most = highs[0];
+        for (int i = 1; i < 8; ++i) {
+            least = lows[i] < least ? lows[i] : least;
+            most = highs[i] > most ? highs[i] : most;
+        }
+    }
+    ALHAZEN_INLINE float magnitude() const {
+        const float a = __builtin_fabsf(least), b = __builtin_fabsf(most);
+        return a > b ? a : b;
     }
 };
 
@@ -84,29 +114,16 @@ class PacketWalk {
 
     /// False when the rays have too little in common.
     bool prepare(std::uint32_t first, std::uint32_t n) {
-        const WideSlot& one = slots_[0];
-        float lowest[3], highest[3];
-        for (std::uint32_t i = 0; i < n; ++i) {
-            if (!begin(query_, slots_[i], first + i)) return false;
-            const WideRay& ray = query_.rays[first + i];
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                if (slots_[i].near_plane[axis] != one.near_plane[axis]) return false;
-                lowest[axis] = i == 0 || ray.o[axis] < lowest[axis] ? ray.o[axis] : lowest[axis];
-                highest[axis] = i == 0 || ray.o[axis] > highest[axis] ? ray.o[axis] : highest[axis];
-            }
-            if (slots_[i].axis[2] != one.axis[2]) return false;
-            // Where a ray hardly moves along an axis, BoxRay has padding that an interval knows nothing of.
-            const float still = 1e-5f * __builtin_fabsf(ray.d[one.axis[2]]);
-            for (float speed : ray.d)
-                if (__builtin_fabsf(speed) < still) return false;
-            rays_.set(i, slots_[i]);
-            all_ |= std::uint64_t{1} << i;
-        }
-        for (std::uint32_t i = n; i < packet_size; ++i) {
-            rays_.set(i, one);
-            rays_.tmax[i] = -1;
-        }
-        return set_interval(lowest, highest, n);
+        first_ = first;
+        // The first ray tells what is common to all.
+        if (!begin(query_, slots_[0], first)) return false;
+        begun_ = 1;
+        all_ = n == packet_size ? ~std::uint64_t{0} : (std::uint64_t{1} << n) - 1;
+        for (std::uint32_t i = 0; i < packet_size; ++i) rays_.set(i, query_.rays[first + (i < n ? i : 0)]);
+        if (!have_common_signs()) return false;
+        for (std::uint32_t i = n; i < packet_size; ++i) rays_.tmax[i] = -1;
+        for (std::size_t i = 0; i < packet_size; i += 8) set_scales(i);
+        return set_interval();
     }
 
     void run() {
@@ -122,8 +139,11 @@ class PacketWalk {
             else
                 descend(e);
         }
-        for (std::uint64_t rays = all_; rays; rays &= rays - 1)
-            finish<false>(query_, slots_[__builtin_ctzll(rays)]);
+        for (std::uint64_t rays = all_; rays; rays &= rays - 1) {
+            const auto i = static_cast<std::uint32_t>(__builtin_ctzll(rays));
+            if (rays_.primitive[i] == no_hit) continue;
+            query_.hits[first_ + i] = {rays_.t[i], rays_.u[i], rays_.v[i], rays_.primitive[i], 0};
+        }
     }
 
   private:
@@ -133,58 +153,111 @@ class PacketWalk {
         float t; ///< no ray enters earlier
     };
 
-    /// False when the rays start too far apart, or when one hardly moves along an axis: intervals would be
-    /// wide.
-    bool set_interval(const float* lowest, const float* highest, std::uint32_t n) {
+    /// Whether all rays are as the first one is: finite, forwards or backwards along the same axes, nowhere
+    /// slow, and longest along the same axis; the numbers are such that no product overflows.
+    bool have_common_signs() const {
+        const std::size_t longest = slots_[0].axis[2];
+        F all = Lanes::all(0);
+        std::uint32_t faults = 0;
+        for (std::size_t i = 0; i < packet_size; i += 8) {
+            const F most = Lanes::magnitude(Lanes::load(rays_.d[longest] + i));
+            // Where a ray hardly moves along an axis, BoxRay has padding that an interval knows nothing of.
+            const F still = Lanes::mul(most, Lanes::all(1e-5f));
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const F d = Lanes::load(rays_.d[axis] + i), o = Lanes::load(rays_.o[axis] + i);
+                const float sign = is_forward(axis) ? 1.0f : -1.0f;
+                faults |= ~Lanes::below(still, Lanes::mul(d, Lanes::all(sign)));
+                if (axis != longest) faults |= ~Lanes::below(Lanes::magnitude(d), most);
+                all = Lanes::add(all, Lanes::sub(o, o));
+            }
+            faults |= ~Lanes::below(Lanes::all(0x1p-60f), most) | ~Lanes::below(most, Lanes::all(0x1p+60f)) |
+                      ~Lanes::below(Lanes::all(0), Lanes::load(rays_.tmax + i));
+        }
+        faults |= ~Lanes::at_most(all, Lanes::all(0));
+        return (faults & 0xff) == 0 && query_.extent < 0x1p+60f;
+    }
+
+    /// What set_scales does for a ray that is nowhere slow, and set_shear.
+    ALHAZEN_INLINE void set_scales(std::size_t i) {
+        constexpr float unit = 0x1p-24f;
+        const std::uint32_t* axes = slots_[0].axis;
+        const F length = Lanes::load(rays_.d[axes[2]] + i);
+        const F spread = Lanes::mul(Lanes::magnitude(length), Lanes::all(16 * unit));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const F o = Lanes::load(rays_.o[axis] + i), d = Lanes::load(rays_.d[axis] + i),
+                    speed = Lanes::magnitude(d);
+            const F pad =
+                Lanes::mul(Lanes::magnitude(o), Lanes::all(is_forward(axis) ? 4 * unit : -4 * unit));
+            const F one = Lanes::all(is_forward(axis) ? 1.0f : -1.0f);
+            const F enter = Lanes::divide(one, Lanes::add(speed, spread)),
+                    leave = Lanes::divide(one, Lanes::sub(speed, spread));
+            Lanes::store(rays_.enter_scale[axis] + i, enter);
+            Lanes::store(rays_.leave_scale[axis] + i, leave);
+            Lanes::store(rays_.enter_offset[axis] + i, Lanes::mul(Lanes::add(o, pad), enter));
+            Lanes::store(rays_.leave_offset[axis] + i, Lanes::mul(Lanes::sub(o, pad), leave));
+        }
+        for (std::size_t axis = 0; axis < 2; ++axis)
+            Lanes::store(rays_.shear[axis] + i, Lanes::divide(Lanes::load(rays_.d[axes[axis]] + i), length));
+        Lanes::store(rays_.shear[2] + i, Lanes::divide(Lanes::all(1), length));
+    }
+
+    /// False when the rays start too far apart: intervals would be wide.
+    bool set_interval() {
         // Beside the padding of BoxRay, for the rounding of the interval's own products.
         constexpr float unit = 0x1p-24f, wider = 4 * unit;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (highest[axis] - lowest[axis] > query_.extent / 64) return false;
-            const float* enter = rays_.enter_scale[axis];
-            const float* leave = rays_.leave_scale[axis];
-            float el = enter[0], eh = enter[0], ll = leave[0], lh = leave[0];
-            for (std::uint32_t i = 1; i < n; ++i) {
-                el = enter[i] < el ? enter[i] : el;
-                eh = enter[i] > eh ? enter[i] : eh;
-                ll = leave[i] < ll ? leave[i] : ll;
-                lh = leave[i] > lh ? leave[i] : lh;
-            }
-            const float size = __builtin_fabsf(lowest[axis]) > __builtin_fabsf(highest[axis])
-                                   ? __builtin_fabsf(lowest[axis])
-                                   : __builtin_fabsf(highest[axis]);
-            const float low = lowest[axis] - 8 * unit * size, high = highest[axis] + 8 * unit * size;
-            const bool is_forward = slots_[0].near_plane[axis] == 64 * axis;
-            interval_.enter_origin[axis] = is_forward ? high : low;
-            interval_.leave_origin[axis] = is_forward ? low : high;
-            interval_.enter_low[axis] = el - wider * __builtin_fabsf(el);
-            interval_.enter_high[axis] = eh + wider * __builtin_fabsf(eh);
-            interval_.leave_low[axis] = ll - wider * __builtin_fabsf(ll);
-            interval_.leave_high[axis] = lh + wider * __builtin_fabsf(lh);
+            const Extent o(rays_.o[axis]), enter(rays_.enter_scale[axis]), leave(rays_.leave_scale[axis]);
+            if (!(o.most - o.least <= query_.extent / 64)) return false;
+            const float pad = 8 * unit * o.magnitude();
+            interval_.enter_origin[axis] = is_forward(axis) ? o.most + pad : o.least - pad;
+            interval_.leave_origin[axis] = is_forward(axis) ? o.least - pad : o.most + pad;
+            interval_.enter_low[axis] = enter.least - wider * enter.magnitude();
+            interval_.enter_high[axis] = enter.most + wider * enter.magnitude();
+            interval_.leave_low[axis] = leave.least - wider * leave.magnitude();
+            interval_.leave_high[axis] = leave.most + wider * leave.magnitude();
         }
         return true;
     }
+
+    ALHAZEN_INLINE bool is_forward(std::size_t axis) const { return slots_[0].near_plane[axis] == 64 * axis; }
 
     ALHAZEN_INLINE void push(std::uint32_t reference, float t, std::uint64_t rays) {
         stack_[height_++] = {rays, reference, t};
     }
 
     /// How far the farthest ray still goes.
-    void set_longest() {
-        F most = Lanes::load(rays_.tmax);
-        for (std::size_t g = 1; g < packet_groups; ++g)
-            most = Lanes::max(most, Lanes::load(rays_.tmax + 8 * g));
-        float t[8];
-        Lanes::store(t, most);
-        longest_ = t[0];
-        for (float one : t) longest_ = one > longest_ ? one : longest_;
+    void set_longest() { longest_ = Extent(rays_.tmax).most; }
+
+    /// Ray i for what takes one ray at a time.
+    ALHAZEN_INLINE WideSlot& slot_of(std::uint32_t i) {
+        WideSlot& slot = slots_[i];
+        if (!((begun_ >> i) & 1)) {
+            begin(query_, slot, first_ + i);
+            begun_ |= std::uint64_t{1} << i;
+        }
+        slot.tmax = rays_.tmax[i];
+        slot.t = rays_.t[i];
+        slot.u = rays_.u[i];
+        slot.v = rays_.v[i];
+        slot.primitive = rays_.primitive[i];
+        return slot;
+    }
+    /// What was found there.
+    ALHAZEN_INLINE void take(std::uint32_t i) {
+        const WideSlot& slot = slots_[i];
+        rays_.tmax[i] = slot.tmax;
+        rays_.t[i] = slot.t;
+        rays_.u[i] = slot.u;
+        rays_.v[i] = slot.v;
+        rays_.primitive[i] = slot.primitive;
     }
 
     void go_on_alone(const Entry& e) {
         for (std::uint64_t rays = e.rays; rays; rays &= rays - 1) {
             const auto i = static_cast<std::uint32_t>(__builtin_ctzll(rays));
             if (!(e.t <= rays_.tmax[i])) continue;
-            SingleWalk<false, false>(query_, slots_[i], alone_).run(e.reference);
-            rays_.tmax[i] = slots_[i].tmax;
+            SingleWalk<false, false>(query_, slot_of(i), alone_).run(e.reference);
+            take(i);
         }
         set_longest();
     }
@@ -239,7 +312,7 @@ class PacketWalk {
         if (e.reference & alhazen::wide_other) [[unlikely]] {
             for (std::uint64_t rays = e.rays; rays; rays &= rays - 1) {
                 const auto i = static_cast<std::uint32_t>(__builtin_ctzll(rays));
-                if (visit_leaf<false>(query_, base_, slots_[i], e.reference)) rays_.tmax[i] = slots_[i].tmax;
+                if (visit_leaf<false>(query_, base_, slot_of(i), e.reference)) take(i);
             }
             return set_longest();
         }
@@ -260,15 +333,16 @@ class PacketWalk {
     ALHAZEN_INLINE bool test_triangle(std::uint32_t leaf, const float* corners, std::uint32_t n,
                                       std::uint32_t k, std::uint32_t number, std::uint32_t i,
                                       std::uint32_t lanes) {
-        const std::size_t x = slots_[0].axis[0] * n, y = slots_[0].axis[1] * n, z = slots_[0].axis[2] * n;
-        auto ray = [&](const float(&of)[3][packet_size], std::size_t axis) __attribute__((always_inline)) {
+        const std::uint32_t* axes = slots_[0].axis;
+        const std::size_t x = axes[0] * n, y = axes[1] * n, z = axes[2] * n;
+        auto ray = [&](const PacketRays::Lane(&of)[3], std::size_t axis) __attribute__((always_inline)) {
             return Lanes::load(of[axis] + i);
         };
         auto corner = [&](const float* p) __attribute__((always_inline)) {
-            const F qz = Lanes::sub(Lanes::all(p[z]), ray(rays_.origin, 2));
-            return Corner{Lanes::sub(Lanes::sub(Lanes::all(p[x]), ray(rays_.origin, 0)),
+            const F qz = Lanes::sub(Lanes::all(p[z]), ray(rays_.o, axes[2]));
+            return Corner{Lanes::sub(Lanes::sub(Lanes::all(p[x]), ray(rays_.o, axes[0])),
                                      Lanes::mul(ray(rays_.shear, 0), qz)),
-                          Lanes::sub(Lanes::sub(Lanes::all(p[y]), ray(rays_.origin, 1)),
+                          Lanes::sub(Lanes::sub(Lanes::all(p[y]), ray(rays_.o, axes[1])),
                                      Lanes::mul(ray(rays_.shear, 1), qz)),
                           qz};
         };
@@ -281,16 +355,18 @@ class PacketWalk {
             const HitLanes hits(found);
             for (std::uint32_t bits = found.hit; bits; bits &= bits - 1) {
                 const auto lane = static_cast<std::uint32_t>(__builtin_ctz(bits));
-                WideSlot& slot = slots_[i + lane];
-                take_if_nearer(slot, hits.t[lane], hits.u[lane], hits.v[lane], number);
-                shorten(slot);
-                rays_.tmax[i + lane] = slot.tmax;
+                const std::uint32_t r = i + lane;
+                if (!rays_.is_nearer(r, hits.t[lane], number)) continue;
+                rays_.t[r] = hits.t[lane];
+                rays_.u[r] = hits.u[lane];
+                rays_.v[r] = hits.v[lane];
+                rays_.primitive[r] = number;
+                rays_.tmax[r] = one_step_beyond(hits.t[lane]);
             }
         }
         for (std::uint32_t bits = found.special; bits; bits &= bits - 1) {
-            WideSlot& slot = slots_[i + static_cast<std::uint32_t>(__builtin_ctz(bits))];
-            if (query_.test(query_.owner, slot, leaf, 1u << k))
-                rays_.tmax[i + static_cast<std::uint32_t>(__builtin_ctz(bits))] = slot.tmax;
+            const std::uint32_t r = i + static_cast<std::uint32_t>(__builtin_ctz(bits));
+            if (query_.test(query_.owner, slot_of(r), leaf, 1u << k)) take(r);
         }
         return (found.hit | found.special) != 0;
     }
@@ -300,7 +376,9 @@ class PacketWalk {
     WideSlot slots_[packet_size];
     PacketRays rays_;
     PacketInterval interval_;
-    std::uint64_t all_ = 0;
+    std::uint32_t first_ = 0; ///< number of the packet's first ray
+    std::uint64_t all_ = 0;   ///< bits of the packet's rays
+    std::uint64_t begun_ = 0; ///< of those whose slot is prepared
     float longest_ = 0;
     std::uint32_t height_ = 0;
     Entry stack_[alhazen::wide_stack];
