@@ -76,6 +76,35 @@ TEST_F(TextureTest, CheckerboardHasTwoOrThreeDimensions) {
     EXPECT_THAT(first_message(), HasSubstr("\"dimension\" is 4; it must be 2 to 3"));
 }
 
+TEST_F(TextureTest, BilerpGoesStraightBetweenCorners) {
+    build({texture_node(
+        "bilerp", {make_float("v00", 1), make_float("v01", 2), make_float("v10", 4), make_float("v11", 8)},
+        false)});
+    auto node = textures.find_float("t");
+    EXPECT_EQ(node->eval(at_uv(0, 0)), 1);
+    EXPECT_EQ(node->eval(at_uv(0, 1)), 2);
+    EXPECT_EQ(node->eval(at_uv(1, 0)), 4);
+    EXPECT_EQ(node->eval(at_uv(1, 1)), 8);
+    EXPECT_FLOAT_EQ(node->eval(at_uv(0.25f, 0.5f)), 0.75f * 1.5f + 0.25f * 6);
+    EXPECT_EQ(node->eval(at_uv(3, -2)), 4); // beyond the square: its border
+}
+
+TEST_F(TextureTest, DirectionMixFollowsTheNormal) {
+    TextureNode mix = texture_node("directionmix",
+                                   {make_float("tex1", 1), make_float("tex2", 3),
+                                    make_array<Vec3>("dir", ValueType::vector3, {{0, 0, 5}})},
+                                   false);
+    build({mix});
+    auto node = textures.find_float("t");
+    auto facing = [&](Vec3 n) { return node->eval(TexturePoint({}, normalize(n), {})); };
+    EXPECT_FLOAT_EQ(facing({0, 0, 1}), 1);
+    EXPECT_FLOAT_EQ(facing({0, 0, -1}), 1);
+    EXPECT_FLOAT_EQ(facing({1, 0, 0}), 3);
+    EXPECT_FLOAT_EQ(facing({1, 0, std::sqrt(3.0f)}), std::sqrt(0.75f) + 3 * (1 - std::sqrt(0.75f)));
+    build({texture_node("directionmix", {make_array<Vec3>("dir", ValueType::vector3, {{0, 0, 0}})}, false)});
+    EXPECT_THAT(first_message(), HasSubstr("\"dir\" must be a direction, not zero"));
+}
+
 // A board whose squares are a tenth wide tells in which tenth a coordinate lies.
 float board_value(Messages& messages, std::vector<Parameter> parameters, Vec3 p) {
     TextureSet set;
@@ -146,7 +175,7 @@ TEST_F(TextureTest, UnknownKindIsAnErrorOrAConstant) {
     lenient.lenient = true;
     BuildContext context{lenient};
     TextureSet set;
-    set.build({texture_node("marble", {make_float("variation", 2)}, true)}, context);
+    set.build({texture_node("ptex", {make_float("variation", 2)}, true)}, context);
     EXPECT_NE(set.find_spectrum("t", SpectrumRole::albedo, &lenient), nullptr);
     EXPECT_EQ(lenient.warnings().size(), 1u);
     EXPECT_EQ(lenient.error_count(), 0u);
