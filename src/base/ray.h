@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "base/vec.h"
+#include "base/lanes.h"
 
 namespace alhazen {
 
@@ -39,15 +39,14 @@ inline float next_down(float v) {
 /// ray starting there cannot meet the surface again (Waechter and Binder 2019; Pharr et al. 2023,
 /// section 6.8.6).
 inline Vec3 offset_origin(Vec3 p, Vec3 p_error, Vec3 ng, Vec3 w) {
-    float distance = dot(abs(ng), p_error);
-    Vec3 offset = ng * distance;
-    if (dot(w, ng) < 0) offset = -offset;
-    Vec3 moved = p + offset;
-    for (int i = 0; i < 3; ++i) {
-        if (offset[i] > 0) moved[i] = next_up(moved[i]);
-        if (offset[i] < 0) moved[i] = next_down(moved[i]);
-    }
-    return moved;
+    const float distance = std::copysign(dot(abs(ng), p_error), dot(w, ng));
+    const Lanes4 offset = to_lanes(ng) * distance, moved = to_lanes(p) + offset;
+    // To the next float along the offset; without branches, since signs cannot be foreseen.
+    const IntLanes4 up = offset > 0, down = offset < 0, bits = std::bit_cast<IntLanes4>(moved);
+    const IntLanes4 is_negative = bits >> 31, step = ((down - up) ^ is_negative) - is_negative;
+    const IntLanes4 beside_zero = (up & 1) | (down & static_cast<int>(0x80000001u));
+    const IntLanes4 next = moved == 0 ? beside_zero : bits + step;
+    return to_vec3(std::bit_cast<Lanes4>(next));
 }
 
 } // namespace alhazen

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace alhazen {
@@ -30,20 +31,23 @@ struct Spectrum {
     Spectrum& operator-=(Spectrum b) { return *this = *this - b; }
     Spectrum& operator*=(Spectrum b) { return *this = *this * b; }
     Spectrum& operator/=(Spectrum b) { return *this = *this / b; }
-    bool operator==(const Spectrum& b) const {
-        return lanes[0] == b.lanes[0] && lanes[1] == b.lanes[1] && lanes[2] == b.lanes[2] &&
-               lanes[3] == b.lanes[3];
-    }
+    bool operator==(const Spectrum& b) const { return is_none(lanes != b.lanes); }
 
     float sum() const { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); }
     float average() const { return 0.25f * sum(); }
     float max() const { return std::max(std::max(lanes[0], lanes[1]), std::max(lanes[2], lanes[3])); }
     float min() const { return std::min(std::min(lanes[0], lanes[1]), std::min(lanes[2], lanes[3])); }
     /// True when every lane is zero.
-    bool is_black() const { return lanes[0] == 0 && lanes[1] == 0 && lanes[2] == 0 && lanes[3] == 0; }
-    bool is_finite() const {
-        return std::isfinite(lanes[0]) && std::isfinite(lanes[1]) && std::isfinite(lanes[2]) &&
-               std::isfinite(lanes[3]);
+    bool is_black() const { return is_none(lanes != 0); }
+    bool is_finite() const { return is_none(lanes - lanes != 0); }
+
+  private:
+    // Whether a comparison holds in no lane; half of them at a time.
+    template <class Comparison>
+    static bool is_none(Comparison lanes) {
+        using Halves = long long __attribute__((vector_size(16)));
+        const auto halves = std::bit_cast<Halves>(lanes);
+        return (halves[0] | halves[1]) == 0;
     }
 };
 

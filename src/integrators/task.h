@@ -30,9 +30,11 @@ PathContext& find_path(First& first, Rest&... rest) {
 
 } // namespace task_detail
 
-/// A computation that yields a T. It starts when awaited (or when run() is called) and resumes whoever awaits
-/// it when done. One argument of the coroutine must be the PathContext&, whose arena holds the coroutine's
-/// frame until the path ends; so a Task must not outlive its path. T must be trivially destructible.
+/// A computation that yields a T. It starts at once and runs until it waits for a ray; where none has to be
+/// waited for it is done before anybody awaits it, as a function call would be. Otherwise it resumes whoever
+/// awaits it when done. One argument of the coroutine must be the PathContext&, whose arena holds the
+/// coroutine's frame until the path ends; so a Task must not outlive its path. T must be trivially
+/// destructible.
 template <class T>
 class [[nodiscard]] Task {
   public:
@@ -41,7 +43,7 @@ class [[nodiscard]] Task {
         std::coroutine_handle<> parent;
 
         Task get_return_object() { return Task(std::coroutine_handle<promise_type>::from_promise(*this)); }
-        std::suspend_always initial_suspend() noexcept { return {}; }
+        std::suspend_never initial_suspend() noexcept { return {}; }
         struct ResumeParent {
             bool await_ready() noexcept { return false; }
             std::coroutine_handle<> await_suspend(std::coroutine_handle<promise_type> done) noexcept {
@@ -68,15 +70,10 @@ class [[nodiscard]] Task {
         if (handle_) handle_.destroy();
     }
 
-    bool await_ready() const noexcept { return false; }
-    std::coroutine_handle<> await_suspend(std::coroutine_handle<> parent) noexcept {
-        handle_.promise().parent = parent;
-        return handle_;
-    }
+    bool await_ready() const noexcept { return handle_.done(); }
+    void await_suspend(std::coroutine_handle<> parent) noexcept { handle_.promise().parent = parent; }
     T await_resume() { return std::move(*handle_.promise().value); }
 
-    /// Starts the task from ordinary code; it runs until its first suspension.
-    void start() { handle_.resume(); }
     bool done() const { return handle_.done(); }
     const T& result() const { return *handle_.promise().value; }
 

@@ -96,7 +96,6 @@ bool Flight::start_next(Path& path) {
         if (camera_ray) {
             path.camera_weight = camera_ray->weight;
             path.task.emplace(world_.integrator->radiance(camera_ray->ray, *path.context));
-            path.task->start();
             return true;
         }
         finish(path, 0);
