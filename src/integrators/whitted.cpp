@@ -51,7 +51,7 @@ struct Whitted final : Integrator {
     }
 
     /// The nearest surface along the ray. For a sphere that is the smaller positive root of a quadratic: see
-    /// intersect_ray_sphere in shapes/sphere.cpp.
+    /// intersect_ray_sphere in shapes/ball.h.
     static auto intersect_scene(const Ray& ray, PathContext& path) { return path.closest(ray); }
 
     Task<Spectrum> trace_ray(Ray ray, int depth, PathContext& path) const {

@@ -88,6 +88,10 @@ struct Conductor final : RoughMaterial {
         if (!reflectance && !k) k = copper("k");
     }
 
+    bool needs_parameters() const override {
+        auto varies = [](const auto& texture) { return texture && !texture->is_constant(); };
+        return RoughMaterial::needs_parameters() || varies(eta) || varies(k) || varies(reflectance);
+    }
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
         TexturePoint at(hit);
         TrowbridgeReitz facets = microfacets(at);

@@ -41,6 +41,7 @@ struct Diffuse final : Material {
         f.example("white", {make_float("reflectance", 1)});
         f.example("black", {make_float("reflectance", 0)});
     }
+    bool needs_parameters() const override { return !reflectance.is_constant(); }
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
         return arena.make<DiffuseBsdf>(clamp(reflectance.eval(TexturePoint(hit), lambda), 0, 1));
     }

@@ -12,6 +12,7 @@ struct Interface final : Material {
         f.example("border", {});
     }
     Bsdf* at(const Hit&, Wavelengths&, Arena&) const override { return nullptr; }
+    bool needs_parameters() const override { return false; }
     bool is_interface() const override { return true; }
 };
 

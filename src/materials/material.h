@@ -17,6 +17,9 @@ struct Material {
     /// which light crosses as if it were not there. A material whose index of refraction varies with the
     /// wavelength terminates lambda's secondary wavelengths.
     virtual Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const = 0;
+    /// Whether at() or choose() look at the hit's uv, or at() distinguishes directions along the surface.
+    /// Where not, hits may come without uv and tangents.
+    virtual bool needs_parameters() const { return true; }
     /// True when at() always returns nullptr.
     virtual bool is_interface() const { return false; }
     /// The material in effect at the hit: itself, or one of those it mixes.

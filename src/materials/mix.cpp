@@ -66,6 +66,9 @@ struct Mix final : Material {
         float u = unit_float(hash_of(salt, bits(hit.p.x), bits(hit.p.y), bits(hit.p.z)));
         return (u < t ? second : first)->choose(hit);
     }
+    bool needs_parameters() const override {
+        return !amount.is_constant() || first->needs_parameters() || second->needs_parameters();
+    }
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
         return choose(hit)->at(hit, lambda, arena);
     }

@@ -186,6 +186,7 @@ struct Phong final : Material {
         everywhere_.emplace(values(TexturePoint({}, {}, {}), rgb));
     }
 
+    bool needs_parameters() const override { return !is_constant(); }
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
         if (everywhere_ && lambda.mode == ColorMode::rgb) return arena.make<PhongBsdf>(*everywhere_);
         return arena.make<PhongBsdf>(values(TexturePoint(hit), lambda));

@@ -23,6 +23,7 @@ struct RoughMaterial : Material {
                 "true: microfacet alpha is the square root of the roughness; false: it is the roughness");
     }
 
+    bool needs_parameters() const override { return uroughness || vroughness || !roughness.is_constant(); }
     TrowbridgeReitz microfacets(const TexturePoint& at) const {
         float u = (uroughness ? *uroughness : roughness).eval(at);
         float v = (vroughness ? *vroughness : roughness).eval(at);

@@ -46,6 +46,7 @@ struct ThinDielectric final : Material {
         f.example("soap", {make_spectrum("eta", "glass-BK7")});
     }
 
+    bool needs_parameters() const override { return false; }
     Bsdf* at(const Hit&, Wavelengths& lambda, Arena& arena) const override {
         float index = lambda.hero(eta.eval(lambda));
         if (!eta.value.is_constant()) lambda.terminate_secondary();

@@ -39,23 +39,50 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
         height_ = std::max(height_, instance.object->height() + 1);
     for (const PlacedShape& placed : shapes_) {
         const FloatTexture& alpha = placed.shape->alpha;
-        leaves_.push_back({placed.shape.get(), placed.shape->triangles(),
-                           alpha.is_constant() && alpha.constant() >= 1,
-                           placed.material && placed.material->is_interface()});
+        leaves_.push_back(
+            {placed.shape.get(), placed.shape->triangles(), alpha.is_constant() && alpha.constant() >= 1,
+             placed.material && placed.material->is_interface(),
+             !placed.material || placed.material->needs_parameters() || !placed.lights.empty()});
     }
     for (std::uint32_t s = 0; s < shapes_.size(); ++s)
         for (std::uint32_t i = 0; i < shapes_[s].shape->primitive_count(); ++i) primitives_.push_back({s, i});
     for (std::uint32_t i = 0; i < instances_.size(); ++i) primitives_.push_back({instance_mark, i});
+    is_apart_.assign(shapes_.size(), false);
+    // A structure that somebody chose gets everything.
+    if (accel.name() == AccelChoice{}.name()) set_balls_apart();
     structure_ = make_structure(*this, accel);
     bounds_ = parallel_sum<Bounds3>(
         primitives_.size(), 16384, Bounds3{},
         [this](Bounds3& box, std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                Bounds3 one = bounds(static_cast<std::uint32_t>(i));
+                Bounds3 one = box_of(primitives_[i]);
                 if (is_finite(one.lo) && is_finite(one.hi) && !one.empty()) box.extend(one);
             }
         },
         [](Bounds3& box, const Bounds3& part) { box.extend(part); });
+}
+
+void Object::rebuild(const AccelChoice& accel) {
+    is_apart_.assign(shapes_.size(), false);
+    balls_ = {};
+    only_balls_ = false;
+    structure_ = make_structure(*this, accel);
+}
+
+void Object::set_balls_apart() {
+    std::vector<BallList::Numbered> balls;
+    for (std::uint32_t i = 0; i < primitives_.size(); ++i) {
+        const Primitive& p = primitives_[i];
+        if (p.shape == instance_mark || !leaves_[p.shape].is_solid || leaves_[p.shape].is_interface) continue;
+        // What has no finite box is never hit.
+        if (auto ball = shapes_[p.shape].shape->ball(); ball && is_finite(box_of(p).diagonal()))
+            balls.push_back({*ball, i});
+        if (balls.size() > BallList::most) return;
+    }
+    for (const BallList::Numbered& ball : balls) is_apart_[primitives_[ball.primitive].shape] = true;
+    balls_ = BallList(std::move(balls));
+    only_balls_ =
+        instances_.empty() && std::find(is_apart_.begin(), is_apart_.end(), false) == is_apart_.end();
 }
 
 PrimitiveKind Object::kind(std::uint32_t primitive) const {
@@ -65,8 +92,13 @@ PrimitiveKind Object::kind(std::uint32_t primitive) const {
     return leaf.is_solid && !leaf.is_interface ? PrimitiveKind::triangle : PrimitiveKind::filtered_triangle;
 }
 
+// As the structure sees it.
 Bounds3 Object::bounds(std::uint32_t primitive) const {
     const Primitive& p = primitives_[primitive];
+    return p.shape != instance_mark && is_apart_[p.shape] ? Bounds3{} : box_of(p);
+}
+
+Bounds3 Object::box_of(const Primitive& p) const {
     if (p.shape != instance_mark) return shapes_[p.shape].shape->bounds(p.primitive);
     const PlacedObject& instance = instances_[p.primitive];
     if (instance.object->bounds().empty()) return {};
@@ -175,15 +207,19 @@ void Object::closest(const Ray& ray, Found& found) const {
 void Object::closest_nested(const Ray& ray, Found& found, std::size_t depth) const {
     ClosestTests tests(*this, {&found, 1}, depth);
     Intersection nearest;
-    if (structure_->closest(ray, nearest, tests)) settle(ray, nearest, depth, found);
+    if (!only_balls_) structure_->closest(ray, nearest, tests);
+    balls_.closest(ray, nearest);
+    if (nearest.found()) settle(ray, nearest, depth, found);
 }
 
 void Object::closest(std::span<const Ray> rays, std::span<Intersection> hits, std::span<Found> found) const {
     ClosestTests tests(*this, found, 0);
     for (Found& f : found) f.object = nullptr;
     structure_->closest(rays, hits, tests);
-    for (std::size_t i = 0; i < rays.size(); ++i)
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        balls_.closest(rays[i], hits[i]);
         if (hits[i].found()) settle(rays[i], hits[i], 0, found[i]);
+    }
 }
 
 // An instance's test has filled found already.
@@ -196,6 +232,8 @@ void Object::settle(const Ray& ray, const Intersection& nearest, std::size_t dep
 }
 
 bool Object::any(const Ray& ray) const {
+    if (balls_.any(ray)) return true;
+    if (only_balls_) return false;
     AnyTests tests(*this);
     return structure_->any(ray, tests);
 }
@@ -203,22 +241,29 @@ bool Object::any(const Ray& ray) const {
 void Object::any(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
     AnyTests tests(*this);
     structure_->any(rays, blocked, tests);
+    if (balls_.empty()) return;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (!blocked[i]) blocked[i] = balls_.any(rays[i]);
 }
 
 bool Object::count(Query query, const Ray& ray, WalkCounts& counts) const {
     if (query == Query::any) {
         AnyTests tests(*this, &counts);
-        return structure_->count(query, ray, tests, counts);
+        return structure_->count(query, ray, tests, counts) || balls_.any(ray);
     }
     Found found;
     ClosestTests tests(*this, {&found, 1}, 0, &counts);
-    return structure_->count(query, ray, tests, counts);
+    Intersection nearest;
+    balls_.closest(ray, nearest);
+    return structure_->count(query, ray, tests, counts) || nearest.found();
 }
 
 Hit Object::surface(const Found& found) {
     const Primitive& primitive = found.object->primitives_[found.hit.primitive];
     const PlacedShape& placed = found.object->shapes_[primitive.shape];
-    Hit hit = placed.shape->surface(found.ray, primitive.primitive, found.hit);
+    Hit hit = found.object->leaves_[primitive.shape].needs_parameters
+                  ? placed.shape->surface(found.ray, primitive.primitive, found.hit)
+                  : placed.shape->plain_surface(found.ray, primitive.primitive, found.hit);
     hit.shape = primitive.shape;
     hit.primitive = primitive.primitive;
     hit.material = placed.material;

@@ -7,6 +7,7 @@
 
 #include "accel/accel.h"
 #include "materials/material.h"
+#include "scene/ball_list.h"
 #include "shapes/shape.h"
 #include "shapes/triangle_mesh.h"
 
@@ -66,7 +67,7 @@ class Object final : public Primitives {
     const std::vector<PlacedObject>& instances() const { return instances_; }
     const Structure& structure() const { return *structure_; }
     /// Builds another structure over the same things; for measurements. Nobody may be asking meanwhile.
-    void rebuild(const AccelChoice& accel) { structure_ = make_structure(*this, accel); }
+    void rebuild(const AccelChoice& accel);
     std::size_t primitive_count() const { return primitives_.size(); }
     /// How deep instances are nested to get out of the innermost: 1 without instances.
     std::size_t height() const { return height_; }
@@ -90,17 +91,23 @@ class Object final : public Primitives {
         const Shape* shape;
         const TriangleMesh* mesh; ///< when the primitives are triangles
         bool is_solid, is_interface;
+        bool needs_parameters; ///< whether anybody looks at a hit's uv or tangents
     };
 
     /// found.instances holds the first depth ones already.
     void closest_nested(const Ray& ray, Found& found, std::size_t depth) const;
     void settle(const Ray& ray, const Intersection& nearest, std::size_t depth, Found& found) const;
+    void set_balls_apart();
+    Bounds3 box_of(const Primitive& primitive) const;
     bool alpha_passes(const Ray& ray, const Primitive& primitive, const Intersection& hit) const;
 
     std::vector<PlacedShape> shapes_;
     std::vector<PlacedObject> instances_;
     std::vector<Leaf> leaves_; ///< one a shape
     std::vector<Primitive> primitives_;
+    std::vector<bool> is_apart_; ///< one a shape: it is among the balls, not in the structure
+    BallList balls_;
+    bool only_balls_ = false; ///< the structure is empty
     std::unique_ptr<Structure> structure_;
     Bounds3 bounds_;
     std::size_t height_ = 1;

@@ -8,6 +8,7 @@
 #include "base/bounds.h"
 #include "base/hit.h"
 #include "describe/kind.h"
+#include "shapes/ball.h"
 #include "textures/texture.h"
 
 namespace alhazen {
@@ -39,6 +40,11 @@ struct Shape {
     /// primitive. (material, area_light, shape and instance are the scene's.)
     virtual Hit surface(const Ray& ray, std::uint32_t primitive, const Intersection& hit) const = 0;
 
+    /// The same, but where that is a saving, without uv and tangents (which are then zero).
+    virtual Hit plain_surface(const Ray& ray, std::uint32_t primitive, const Intersection& hit) const {
+        return surface(ray, primitive, hit);
+    }
+
     virtual float area(std::uint32_t primitive) const = 0;
     /// A point uniform over the primitive's area (density 1 / area).
     virtual ShapeSample sample(std::uint32_t primitive, Vec2 u) const = 0;
@@ -58,6 +64,9 @@ struct Shape {
 
     /// The mesh, when the primitives are triangles: scenes test those without a virtual call a triangle.
     virtual const TriangleMesh* triangles() const { return nullptr; }
+
+    /// The ball that it is, if so: scenes test few of those together.
+    virtual std::optional<Ball> ball() const { return std::nullopt; }
 
     /// Memory of the shape's arrays.
     virtual std::size_t bytes() const { return 0; }

@@ -11,22 +11,6 @@ namespace alhazen {
 
 namespace {
 
-/// The smaller positive root of (d.d) t^2 + 2 (o.d) t + o.o - r^2 = 0, which is where the ray o + t d enters
-/// a sphere around the origin, or leaves it from inside. 0 when the ray misses (or is NaN).
-double intersect_ray_sphere(Vec3d o, Vec3d d, double r) {
-    double a = dot(d, d), h = dot(o, d), c = dot(o, o) - r * r;
-    if (c > 0 && h >= 0) return 0; // outside, and flying away
-    // How far the ray passes the centre tells the discriminant h^2 - a c without cancellation (Haines et al.
-    // 2019, "Precision Improvements for Ray/Sphere Intersection").
-    Vec3d miss = o - d * (h / a);
-    double discriminant = a * (r * r - dot(miss, miss));
-    if (!(discriminant >= 0)) return 0;
-    // The roots are q / a and c / q, up to both signs; from inside, where c < 0, one of them is positive.
-    double q = std::abs(h) + std::sqrt(discriminant);
-    if (c > 0) return c / q;
-    return h < 0 ? q / a : -c / q;
-}
-
 struct Sphere final : QuadricShape<Sphere> {
     float radius = 1;
     std::optional<float> zmin, zmax;
@@ -43,7 +27,7 @@ struct Sphere final : QuadricShape<Sphere> {
     }
     bool intersect(const Ray& ray, std::uint32_t primitive, Intersection& hit) const override {
         if (!ball_) return QuadricShape::intersect(ray, primitive, hit);
-        auto t = static_cast<float>(ball_->intersect(ray));
+        auto t = static_cast<float>(ball_->intersect(BallRay(ray)));
         if (!(t > 0) || !(t < ray.tmax)) return false;
         hit.t = t;
         hit.u = hit.v = 0;
@@ -52,6 +36,10 @@ struct Sphere final : QuadricShape<Sphere> {
     Hit surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const override {
         return ball_ ? ball_surface(ray, primitive, met) : QuadricShape::surface(ray, primitive, met);
     }
+    Hit plain_surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const override {
+        return ball_ ? ball_plain_surface(ray, primitive, met) : QuadricShape::surface(ray, primitive, met);
+    }
+    std::optional<Ball> ball() const override { return ball_; }
     std::optional<ShapeSample> sample_from(std::uint32_t primitive, Vec3 reference, Vec2 u) const override;
     float pdf_from(std::uint32_t primitive, Vec3 reference, const Hit& hit, Vec3 wi) const override;
 
@@ -84,33 +72,31 @@ struct Sphere final : QuadricShape<Sphere> {
     double object_area() const { return phi_max_ * r_ * (z_max_ - z_min_); }
 
   private:
-    /// A whole sphere that is one in the world, too: met there without transforming the ray.
-    struct Ball {
-        Vec3d centre;
-        double radius;
-
-        double intersect(const Ray& ray) const {
-            return intersect_ray_sphere(Vec3d(ray.o) - centre, Vec3d(ray.d), radius);
-        }
-    };
-
     Hit ball_surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const {
-        // Not met.t, which is rounded.
-        Vec3d outward = normalize(Vec3d(ray.o) - ball_->centre + Vec3d(ray.d) * ball_->intersect(ray));
-        Vec3d from_centre = outward * ball_->radius, p = ball_->centre + from_centre;
-        ObjectTangents tangents = this->tangents(placement.to_object_vector(from_centre));
-        Hit hit;
-        hit.p = Vec3(p);
-        hit.p_error = rounding_error(p, abs(ball_->centre) + abs(from_centre));
-        hit.wo = Vec3(normalize(Vec3d(-ray.d)));
-        hit.ng = hit.ns = placement.turned(Vec3(outward));
+        Hit hit = ball_plain_surface(ray, primitive, met);
+        ObjectTangents tangents = this->tangents(placement.to_object_vector(from_centre(ray)));
         hit.dpdu = Vec3(placement.vector(tangents.dpdu));
         hit.dpdv = Vec3(placement.vector(tangents.dpdv));
         hit.uv = tangents.uv;
+        return hit;
+    }
+    Hit ball_plain_surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const {
+        Vec3d from_centre = this->from_centre(ray), p = ball_->centre + from_centre;
+        Hit hit;
+        hit.p = Vec3(p);
+        hit.p_error = rounding_error(p, abs(ball_->centre) + abs(from_centre));
+        hit.wo = normalize(-ray.d);
+        hit.ng = hit.ns = placement.turned(Vec3(from_centre * (1 / ball_->radius)));
         hit.t = met.t;
         hit.time = ray.time;
         hit.primitive = primitive;
         return hit;
+    }
+    // Of the point where the ray meets the ball: not from the Intersection's t, which is rounded.
+    Vec3d from_centre(const Ray& ray) const {
+        BallRay exact(ray);
+        Vec3d v = exact.o - ball_->centre + exact.d * ball_->intersect(exact);
+        return v * (ball_->radius / length(v));
     }
 
     // Squared distance of the reference from the centre over the radius squared, when the cone of directions
@@ -133,7 +119,7 @@ struct Sphere final : QuadricShape<Sphere> {
 
     double r_ = 1, z_min_ = -1, z_max_ = 1, theta_min_ = 0, theta_max_ = 0;
     bool is_whole_ = true;
-    std::optional<Ball> ball_;
+    std::optional<Ball> ball_; ///< when it is whole, and no ellipsoid in the world
 };
 
 void Sphere::describe(Fields<Sphere>& f) {

@@ -85,6 +85,16 @@ Bounds3 TriangleMesh::bounds(std::uint32_t triangle) const {
 }
 
 Hit TriangleMesh::surface(const Ray& ray, std::uint32_t triangle, const Intersection& met) const {
+    Hit hit = plain_surface(ray, triangle, met);
+    Vec3d b = weights_of(met);
+    auto corner = corner_uv(triangle);
+    hit.uv = corner[0] * static_cast<float>(b.x) + corner[1] * static_cast<float>(b.y) +
+             corner[2] * static_cast<float>(b.z);
+    set_tangents(triangle, hit, b);
+    return hit;
+}
+
+Hit TriangleMesh::plain_surface(const Ray& ray, std::uint32_t triangle, const Intersection& met) const {
     const int* corners = corner_indices(triangle);
     Vec3d b = weights_of(met);
     Vec3d p = weigh_exactly(P, corners, b);
@@ -99,13 +109,9 @@ Hit TriangleMesh::surface(const Ray& ray, std::uint32_t triangle, const Intersec
     hit.wo = Vec3(normalize(Vec3d(-ray.d)));
     hit.ng = Vec3(ng);
     hit.ns = size > 0 && std::isfinite(size) ? Vec3(ns * (1 / size)) : hit.ng;
-    auto corner = corner_uv(triangle);
-    hit.uv = corner[0] * static_cast<float>(b.x) + corner[1] * static_cast<float>(b.y) +
-             corner[2] * static_cast<float>(b.z);
     hit.t = met.t;
     hit.time = ray.time;
     hit.primitive = triangle;
-    set_tangents(triangle, hit, b);
     return hit;
 }
 

@@ -112,6 +112,24 @@ TEST(Shapes, HitsLieOnTheSurfaceAndWithinTheBounds) {
     }
 }
 
+TEST(Shapes, PlainSurfacesAreTheSameButForParameters) {
+    for (const Case& c : all_cases()) {
+        SCOPED_TRACE(c.name);
+        Rng rng(17);
+        for (int n = 0; n < 200; ++n) {
+            Ray ray = random_line(c.ball, rng);
+            for (std::uint32_t i = 0; i < c.shape->primitive_count(); ++i) {
+                Intersection met;
+                if (!c.shape->intersect(ray, i, met)) continue;
+                Hit all = c.shape->surface(ray, i, met), plain = c.shape->plain_surface(ray, i, met);
+                ASSERT_TRUE(all.p == plain.p && all.p_error == plain.p_error && all.wo == plain.wo);
+                ASSERT_TRUE(all.ng == plain.ng && all.ns == plain.ns);
+                ASSERT_TRUE(all.t == plain.t && all.time == plain.time && all.primitive == plain.primitive);
+            }
+        }
+    }
+}
+
 TEST(Shapes, NothingIsHitBeforeTheStartOrBehindTheEnd) {
     for (const Case& c : all_cases()) {
         SCOPED_TRACE(c.name);

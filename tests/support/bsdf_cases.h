@@ -14,6 +14,7 @@ struct BsdfCase {
     std::string name; ///< "dielectric / frosted"
     std::string kind, example;
     Bsdf* bsdf = nullptr;
+    Bsdf* plain = nullptr; ///< from a hit without uv and tangents, where the material says it needs none
 };
 
 /// Owns what the cases point to. Mixtures are seen at several points, so that both parts are among the cases;
@@ -51,22 +52,27 @@ class BsdfCases {
         int points = kind == "mix" ? 3 : 1;
         for (int i = 0; i < points; ++i) {
             std::string name = kind + " / " + example.name;
-            cases_.push_back({name, kind, example.name, bsdf_at(*material, i, context.color_mode)});
+            Bsdf* plain = nullptr;
+            if (!material->needs_parameters()) plain = bsdf_at(*material, i, context.color_mode, false);
+            cases_.push_back({name, kind, example.name, bsdf_at(*material, i, context.color_mode), plain});
             Bsdf* wide = bsdf_at(*material, i, context.color_mode);
             bool was_specular = has(wide->lobes(), Lobes::specular);
             wide->regularize();
             if (was_specular && !has(wide->lobes(), Lobes::specular))
-                cases_.push_back({name + ", regularised", kind, example.name + ", regularised", wide});
+                cases_.push_back(
+                    {name + ", regularised", kind, example.name + ", regularised", wide, nullptr});
         }
     }
 
-    Bsdf* bsdf_at(const Material& material, int point, ColorMode mode) {
+    Bsdf* bsdf_at(const Material& material, int point, ColorMode mode, bool with_parameters = true) {
         Hit hit;
         hit.p = Vec3(0.25f, 0.5f, -1.5f) * static_cast<float>(point + 1);
         hit.ng = hit.ns = {0, 0, 1};
-        hit.dpdu = {1, 0, 0};
-        hit.dpdv = {0, 1, 0};
-        hit.uv = {0.3f, 0.6f};
+        if (with_parameters) {
+            hit.dpdu = {1, 0, 0};
+            hit.dpdv = {0, 1, 0};
+            hit.uv = {0.3f, 0.6f};
+        }
         Wavelengths lambda =
             mode == ColorMode::spectral ? Wavelengths::sample_visible(0.37f) : Wavelengths::rgb();
         return material.at(hit, lambda, arena_);
