@@ -28,25 +28,20 @@ std::vector<AccelChoice> builders_of(const BenchOptions& options) {
 /// By the peer's quality, the choice's name, or "tree " and that name: without the layout.
 using Times = std::map<std::string, std::vector<double>>;
 
-const AccelWalk& walk_of(const AccelChoice& choice) {
-    auto walks = accel_walks();
-    return *std::find_if(walks.begin(), walks.end(), [&](const AccelWalk& w) { return w.name == choice.walk; });
-}
-
 // All of ours and all of the peer's in turn, again and again.
 Times measure_builds(const Object& root, const std::vector<AccelChoice>& ours, int threads, int repeat) {
     Times times;
     for (int i = 0; i < repeat; ++i) {
         for (auto [quality, name] : qualities)
-            if (auto peer = make_peer(root, {quality, threads, false})) times[name].push_back(peer->build_seconds());
+            if (auto peer = make_peer(root, {quality, threads, false}))
+                times[name].push_back(peer->build_seconds());
         for (const AccelChoice& choice : ours) {
             double tree_seconds = 0, layout_seconds = 0;
             with_threads(threads, [&] {
                 Tree tree;
                 std::unique_ptr<Structure> structure;
-                tree_seconds = seconds_of(0, [&] { tree = build_tree(root, choice); });
-                layout_seconds = seconds_of(
-                    0, [&] { structure = walk_of(choice).make(root, tree, choice.walk_options); });
+                tree_seconds = seconds_of(threads, [&] { tree = build_tree(root, choice); });
+                layout_seconds = seconds_of(threads, [&] { structure = make_structure(root, tree, choice); });
             });
             times[choice.name()].push_back(tree_seconds + layout_seconds);
             times["tree " + choice.name()].push_back(tree_seconds);
@@ -90,8 +85,8 @@ Json bench_building(World& world, const std::string& scene, const BenchOptions& 
                 record[fmt::format("embree_{}_ratio", name)] = ratio ? Json(*ratio) : Json();
                 text += ratio ? fmt::format("  x{:.2f}", *ratio) : "";
             }
-            fmt::print("  {} thread(s)  {:<20}{:>8.3f} s (tree {:.3f})  SAH {:>7.2f}{}\n", threads, choice.name(),
-                       record["build_s"].get<double>(), record["tree_s"].get<double>(),
+            fmt::print("  {} thread(s)  {:<20}{:>8.3f} s (tree {:.3f})  SAH {:>7.2f}{}\n", threads,
+                       choice.name(), record["build_s"].get<double>(), record["tree_s"].get<double>(),
                        record["sah_cost"].get<double>(), text);
             records.push_back(std::move(record));
         }

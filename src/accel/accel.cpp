@@ -72,6 +72,8 @@ std::optional<AccelChoice> parse_accel(std::string_view text, std::string& error
 
 Tree build_tree(const Primitives& primitives, const AccelChoice& choice) {
     BuildOptions wants = find(accel_walks(), choice.walk)->wants;
+    // Only triangles are tested together.
+    if (primitives.kinds().custom) wants.joined = 0;
     std::vector<Bounds3> boxes = padded_boxes(primitives);
     BuilderName name(choice.builder);
     const AccelBuilder& builder = *find(accel_builders(), name.builder);
@@ -79,6 +81,7 @@ Tree build_tree(const Primitives& primitives, const AccelChoice& choice) {
     // Single primitives find better places than leaves of several do.
     BuildOptions singly = wants;
     singly.leaf_size = 1;
+    singly.joined = 0;
     Tree tree = builder.build(primitives, boxes, singly);
     optimize_by_reinsertion(tree);
     collapse_leaves(tree, wants);
@@ -86,8 +89,12 @@ Tree build_tree(const Primitives& primitives, const AccelChoice& choice) {
 }
 
 std::unique_ptr<Structure> make_structure(const Primitives& primitives, const AccelChoice& choice) {
-    return find(accel_walks(), choice.walk)
-        ->make(primitives, build_tree(primitives, choice), choice.walk_options);
+    return make_structure(primitives, build_tree(primitives, choice), choice);
+}
+
+std::unique_ptr<Structure> make_structure(const Primitives& primitives, const Tree& tree,
+                                          const AccelChoice& choice) {
+    return find(accel_walks(), choice.walk)->make(primitives, tree, choice.walk_options);
 }
 
 } // namespace alhazen

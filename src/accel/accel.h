@@ -29,5 +29,8 @@ std::optional<AccelChoice> parse_accel(std::string_view text, std::string& error
 /// The tree and the structure for a choice of known names.
 Tree build_tree(const Primitives& primitives, const AccelChoice& choice);
 std::unique_ptr<Structure> make_structure(const Primitives& primitives, const AccelChoice& choice = {});
+/// The structure for a tree that is there already; the choice's builder does not matter.
+std::unique_ptr<Structure> make_structure(const Primitives& primitives, const Tree& tree,
+                                          const AccelChoice& choice);
 
 } // namespace alhazen

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "accel/intersection.h"
@@ -21,6 +22,23 @@ enum class PrimitiveKind : std::uint8_t {
     custom,            ///< by PrimitiveTests
 };
 
+/// Which kinds there are in a list.
+struct PrimitiveKinds {
+    bool triangle = false, filtered_triangle = false, custom = false;
+
+    void add(PrimitiveKind kind) {
+        triangle |= kind == PrimitiveKind::triangle;
+        filtered_triangle |= kind == PrimitiveKind::filtered_triangle;
+        custom |= kind == PrimitiveKind::custom;
+    }
+    void add(const PrimitiveKinds& more) {
+        triangle |= more.triangle;
+        filtered_triangle |= more.filtered_triangle;
+        custom |= more.custom;
+    }
+    bool only_plain_triangles() const { return !filtered_triangle && !custom; }
+};
+
 /// The corners of a triangle.
 struct Corners {
     Vec3 a, b, c;
@@ -33,11 +51,17 @@ class Primitives {
 
     virtual std::uint32_t count() const = 0;
     virtual PrimitiveKind kind(std::uint32_t primitive) const = 0;
+    /// All kinds that kind() gives, maybe more. By itself it asks for every primitive.
+    virtual PrimitiveKinds kinds() const;
     /// Contains all that its test can hit, up to a few roundings of the box's coordinates; a primitive whose
     /// box is empty, infinite or NaN is never hit.
     virtual Bounds3 bounds(std::uint32_t primitive) const = 0;
     /// For triangles only, whose box follows from them.
     virtual Corners corners(std::uint32_t primitive) const = 0;
+    /// Of many triangles that stand anywhere in memory: whoever knows where can let the fetches overlap.
+    virtual void gather_corners(std::span<const std::uint32_t> primitives, Corners* to) const {
+        for (std::uint32_t primitive : primitives) *to++ = corners(primitive);
+    }
 };
 
 /// The boxes of all primitives, a little larger than they are: by what a triangle test that moves vertices to

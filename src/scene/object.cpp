@@ -87,9 +87,14 @@ void Object::set_balls_apart() {
 
 PrimitiveKind Object::kind(std::uint32_t primitive) const {
     const Primitive& p = primitives_[primitive];
-    if (p.shape == instance_mark || !leaves_[p.shape].mesh) return PrimitiveKind::custom;
-    const Leaf& leaf = leaves_[p.shape];
-    return leaf.is_solid && !leaf.is_interface ? PrimitiveKind::triangle : PrimitiveKind::filtered_triangle;
+    return p.shape == instance_mark ? PrimitiveKind::custom : leaves_[p.shape].kind();
+}
+
+PrimitiveKinds Object::kinds() const {
+    PrimitiveKinds kinds;
+    for (const Leaf& leaf : leaves_) kinds.add(leaf.kind());
+    if (!instances_.empty()) kinds.add(PrimitiveKind::custom);
+    return kinds;
 }
 
 // As the structure sees it.
@@ -113,6 +118,24 @@ Corners Object::corners(std::uint32_t primitive) const {
     const Primitive& p = primitives_[primitive];
     auto [a, b, c] = leaves_[p.shape].mesh->vertices(p.primitive);
     return {a, b, c};
+}
+
+// Step by step for all, so that one does not wait for another's memory.
+void Object::gather_corners(std::span<const std::uint32_t> primitives, Corners* to) const {
+    constexpr std::size_t most = 8;
+    for (; primitives.size() > most; primitives = primitives.subspan(most), to += most)
+        gather_corners(primitives.first(most), to);
+    std::array<const TriangleMesh*, most> mesh;
+    std::array<const int*, most> indices;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const Primitive& p = primitives_[primitives[i]];
+        mesh[i] = leaves_[p.shape].mesh;
+        indices[i] = &mesh[i]->indices[std::size_t{3} * p.primitive];
+    }
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        auto at = [&](int corner) { return mesh[i]->P[static_cast<std::size_t>(indices[i][corner])]; };
+        to[i] = {at(0), at(1), at(2)};
+    }
 }
 
 // Chance decides between solid and absent, by a hash of the ray: the same ray always sees the same surface.

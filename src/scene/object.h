@@ -74,8 +74,10 @@ class Object final : public Primitives {
 
     std::uint32_t count() const override { return static_cast<std::uint32_t>(primitives_.size()); }
     PrimitiveKind kind(std::uint32_t primitive) const override;
+    PrimitiveKinds kinds() const override;
     Bounds3 bounds(std::uint32_t primitive) const override;
     Corners corners(std::uint32_t primitive) const override;
+    void gather_corners(std::span<const std::uint32_t> primitives, Corners* to) const override;
 
   private:
     class ClosestTests;
@@ -92,6 +94,11 @@ class Object final : public Primitives {
         const TriangleMesh* mesh; ///< when the primitives are triangles
         bool is_solid, is_interface;
         bool needs_parameters; ///< whether anybody looks at a hit's uv or tangents
+
+        PrimitiveKind kind() const {
+            if (!mesh) return PrimitiveKind::custom;
+            return is_solid && !is_interface ? PrimitiveKind::triangle : PrimitiveKind::filtered_triangle;
+        }
     };
 
     /// found.instances holds the first depth ones already.

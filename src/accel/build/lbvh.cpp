@@ -8,12 +8,15 @@
 ///
 /// The method was made for GPUs: one thread a node in each pass. On a CPU each pass is a loop over runs of
 /// nodes, and the passes' going to and fro through memory, which a GPU's bandwidth hides, becomes what they
-/// cost; see also radix_tree.h. The order of nodes in memory, left to chance there, is depth-first here: the
-/// sizes of the subtrees, counted on the way up, say where each goes.
+/// cost; see also radix_tree.h. So subtrees that are leaves in any case are found first (leaf_runs.h) and the
+/// radix tree branches above them only, which makes no difference to the result. The order of nodes in
+/// memory, left to chance there, is depth-first here: the sizes of the subtrees, counted on the way up, say
+/// where each goes.
 #include "accel/build/lbvh.h"
 
 #include <cstring>
 
+#include "accel/build/leaf_runs.h"
 #include "accel/build/radix_tree.h"
 #include "accel/list.h"
 #include "base/lanes.h"
@@ -52,7 +55,7 @@ struct BoxLanes {
 };
 static_assert(sizeof(Bounds3) == 6 * sizeof(float));
 
-// What an inner node of the radix tree will be.
+// What a node of the radix tree will be.
 struct Subtree {
     float box[6];
     float cost;          // area times tests
@@ -61,106 +64,125 @@ struct Subtree {
     Bounds3 bounds() const { return {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}}; }
 };
 
+template <class T>
+void resize(std::vector<T>& v, std::size_t size) {
+    v.reserve(size);
+    prefer_huge_pages(v.data(), size * sizeof(T));
+    v.resize(size);
+}
+
 class LbvhBuilder {
   public:
-    LbvhBuilder(std::span<const Bounds3> boxes, std::span<const MortonKey> keys, const BuildOptions& options,
-                BigArray<MortonKey>&& scratch)
-        : boxes_(boxes), keys_(keys), options_(options), radix_(keys, std::move(scratch)),
-          subtrees_(radix_.inner()) {}
+    LbvhBuilder(std::span<const Bounds3> boxes, BigArray<MortonKey>&& keys, const BuildOptions& options)
+        : options_(options), leaf_size_(std::min(options.leaf_size, Tree::max_leaf_size)),
+          runs_(keys.all(), certain_leaf(options)), leaves_(runs_.count()) {
+        resize(tree_.order, keys.size());
+        BigArray<MortonKey> run_keys(runs_.count());
+        parallel_ranges(runs_.count(), task_size, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t run = begin; run < end; ++run) {
+                run_keys[run] = keys[runs_.first(run)];
+                make_leaf(boxes, keys.all(), run);
+            }
+        });
+        keys_ = std::move(run_keys);
+    }
 
     Tree build() {
-        radix_.bottom_up([this](std::size_t leaf) { fetch(leaf + fetch_ahead); },
-                         [this](std::uint32_t i, RadixTree::Node n) { fit(i, n); });
-        Tree tree;
-        resize(tree.order, keys_.size());
-        parallel_ranges(keys_.size(), task_size, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) tree.order[i] = keys_[i].index;
-        });
-        resize(tree.nodes, radix_.inner() ? subtrees_[0].nodes : 1);
-        radix_.inner() ? place(tree.nodes.data(), 0, 0) : place_leaf(tree.nodes.data(), 0, 0);
-        return tree;
+        const RadixTree radix(keys_.all());
+        radix_ = &radix;
+        subtrees_ = BigArray<Subtree>(radix.inner());
+        radix.bottom_up([this](std::uint32_t i, RadixTree::Node n) { fit(i, n); });
+        resize(tree_.nodes, radix.inner() ? subtrees_[0].nodes : 1);
+        radix.inner() ? place(0, 0) : place_leaf(0, 0);
+        return std::move(tree_);
     }
 
   private:
-    template <class T>
-    static void resize(std::vector<T>& v, std::size_t size) {
-        v.reserve(size);
-        prefer_huge_pages(v.data(), size * sizeof(T));
-        v.resize(size);
+    // Up to so many primitives are better off in one leaf than in two, wherever they are.
+    static std::uint32_t certain_leaf(const BuildOptions& options) {
+        if (options.node_cost < 1) return 1;
+        return std::max(1u, std::min({options.leaf_size, options.block, Tree::max_leaf_size}));
+    }
+    float tests(std::uint32_t primitives) const {
+        return static_cast<float>((primitives + options_.block - 1) / options_.block);
     }
 
-    void fetch(std::size_t leaf) const {
-        if (leaf < keys_.size()) __builtin_prefetch(&boxes_[keys_[leaf].index]);
+    void make_leaf(std::span<const Bounds3> boxes, std::span<const MortonKey> keys, std::size_t run) {
+        const std::uint32_t first = runs_.first(run), end = first + runs_.size(run);
+        BoxLanes box(&boxes[keys[first].index].lo.x);
+        for (std::uint32_t i = first; i < end; ++i) {
+            if (i + fetch_ahead < keys.size()) __builtin_prefetch(&boxes[keys[i + fetch_ahead].index]);
+            tree_.order[i] = keys[i].index;
+            box.extend(BoxLanes(&boxes[keys[i].index].lo.x));
+        }
+        Subtree& leaf = leaves_[run];
+        box.store(leaf.box);
+        leaf.cost = box.half_area() * tests(end - first);
+        leaf.nodes = 1;
     }
 
-    // A child in registers, read without a branch: which of the two kinds it is, no processor guesses.
-    struct Child {
-        BoxLanes box;
-        float cost;
-        std::uint32_t nodes;
-    };
-    Child child(std::uint32_t number, bool is_leaf) const {
-        const Subtree& subtree = subtrees_[is_leaf ? 0 : number];
-        const float* leaf_box = &boxes_[keys_[number].index].lo.x;
-        Child c{BoxLanes(is_leaf ? leaf_box : subtree.box), subtree.cost, subtree.nodes};
-        const float area = c.box.half_area();
-        c.cost = is_leaf ? area : c.cost;
-        c.nodes = is_leaf ? 1 : c.nodes;
-        return c;
+    const Subtree& child(std::uint32_t number, bool is_leaf) const {
+        return is_leaf ? leaves_[number] : subtrees_[number];
     }
+    // Primitives below a node of the radix tree.
+    std::uint32_t count(RadixTree::Node n) const { return runs_.first(n.last + 1) - runs_.first(n.first); }
 
     void fit(std::uint32_t i, RadixTree::Node n) {
-        const Child l = child(n.split, n.split == n.first), r = child(n.split + 1, n.split + 1 == n.last);
-        BoxLanes box = l.box;
-        box.extend(r.box);
+        const Subtree &l = child(n.split, n.split == n.first), &r = child(n.split + 1, n.split + 1 == n.last);
+        BoxLanes box(l.box);
+        box.extend(BoxLanes(r.box));
         const float area = box.half_area();
         const float split_cost = area * options_.node_cost + (l.cost + r.cost);
-        const std::uint32_t tests = (n.count() + options_.block - 1) / options_.block;
-        const float leaf_cost = area * static_cast<float>(tests);
-        const bool is_leaf =
-            n.count() <= std::min(options_.leaf_size, Tree::max_leaf_size) && leaf_cost <= split_cost;
+        const std::uint32_t primitives = count(n);
+        const float leaf_cost = area * tests(primitives);
+        const bool is_leaf = primitives <= leaf_size_ && leaf_cost <= split_cost;
         Subtree& s = subtrees_[i];
         box.store(s.box);
         s.cost = is_leaf ? leaf_cost : split_cost;
         s.nodes = is_leaf ? 1 : 1 + l.nodes + r.nodes;
     }
 
-    void place_leaf(Tree::Node* nodes, std::uint32_t leaf, std::uint32_t at) const {
-        nodes[at] = {boxes_[keys_[leaf].index], leaf, 1};
+    void place_leaf(std::uint32_t run, std::uint32_t at) {
+        tree_.nodes[at] = {leaves_[run].bounds(), runs_.first(run), runs_.size(run)};
     }
     // Writes the subtree of an inner node to the places from at on.
-    void place(Tree::Node* nodes, std::uint32_t i, std::uint32_t at) const {
+    void place(std::uint32_t i, std::uint32_t at) {
         for (;;) {
-            const RadixTree::Node n = radix_.node(i);
+            const RadixTree::Node n = radix_->node(i);
             const Subtree& s = subtrees_[i];
             if (s.nodes == 1) {
-                nodes[at] = {s.bounds(), n.first, n.count()};
+                tree_.nodes[at] = {s.bounds(), runs_.first(n.first), count(n)};
                 return;
             }
             const bool left_is_leaf = n.split == n.first, right_is_leaf = n.split + 1 == n.last;
-            const std::uint32_t right = at + 1 + (left_is_leaf ? 1 : subtrees_[n.split].nodes);
-            nodes[at] = {s.bounds(), right, 0};
+            const std::uint32_t right = at + 1 + child(n.split, left_is_leaf).nodes;
+            tree_.nodes[at] = {s.bounds(), right, 0};
             if (n.count() > task_size && !left_is_leaf && !right_is_leaf) {
-                parallel_invoke([&] { place(nodes, n.split, at + 1); },
-                                [&] { place(nodes, n.split + 1, right); });
+                parallel_invoke([&] { place(n.split, at + 1); }, [&] { place(n.split + 1, right); });
                 return;
             }
-            left_is_leaf ? place_leaf(nodes, n.split, at + 1) : place(nodes, n.split, at + 1);
-            if (right_is_leaf) return place_leaf(nodes, n.split + 1, right);
+            left_is_leaf ? place_leaf(n.split, at + 1) : place(n.split, at + 1);
+            if (right_is_leaf) return place_leaf(n.split + 1, right);
             i = n.split + 1;
             at = right;
         }
     }
 
-    std::span<const Bounds3> boxes_;
-    std::span<const MortonKey> keys_;
     BuildOptions options_;
-    RadixTree radix_;
-    BigArray<Subtree> subtrees_; // of inner nodes
+    std::uint32_t leaf_size_;
+    LeafRuns runs_;
+    BigArray<MortonKey> keys_;   // of the runs
+    BigArray<Subtree> leaves_;   // the runs
+    BigArray<Subtree> subtrees_; // inner nodes
+    const RadixTree* radix_ = nullptr;
+    Tree tree_;
 };
 
+// A layout that makes leaves of several primitives from those of one gets them at once, which is quicker.
 Tree build(const Primitives&, std::span<const Bounds3> boxes, const BuildOptions& options) {
-    return build_lbvh(boxes, options);
+    BuildOptions quick = options;
+    if (options.joined > 1) quick.leaf_size = quick.block = options.joined;
+    return build_lbvh(boxes, quick);
 }
 
 } // namespace
@@ -172,7 +194,8 @@ Tree build_lbvh(std::span<const Bounds3> boxes, const BuildOptions& options, Mor
     coder.write(keys.all());
     BigArray<MortonKey> scratch(keys.size());
     sort_by_code(keys.all(), scratch.all());
-    return LbvhBuilder(boxes, keys.all(), options, std::move(scratch)).build();
+    scratch = {};
+    return LbvhBuilder(boxes, std::move(keys), options).build();
 }
 
 AccelBuilder lbvh_builder() {

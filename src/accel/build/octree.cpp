@@ -35,7 +35,7 @@ class OctreeBuilder {
           first_cell_(radix_.inner() + radix_.leaves() + 1) {}
 
     Octree build() {
-        radix_.bottom_up([](std::size_t) {}, [this](std::uint32_t i, RadixTree::Node n) { fit(i, n); });
+        radix_.bottom_up([this](std::uint32_t i, RadixTree::Node n) { fit(i, n); });
         number_cells();
         Octree octree;
         octree.max_level = options_.max_level;

@@ -2,14 +2,8 @@
 
 namespace alhazen {
 
-RadixTree::RadixTree(std::span<const MortonKey> keys, BigArray<MortonKey>&& memory)
-    : keys_(keys), memory_(std::move(memory)) {
-    static_assert(sizeof(MortonKey) == sizeof(Link) + 2 * sizeof(std::uint32_t));
-    void* next = memory_.data();
-    nodes_ = static_cast<Link*>(next);
-    next = nodes_ + leaves();
-    inner_parent_ = static_cast<std::uint32_t*>(next);
-    leaf_parent_ = inner_parent_ + leaves();
+RadixTree::RadixTree(std::span<const MortonKey> keys)
+    : keys_(keys), nodes_(inner()), inner_parent_(inner()), leaf_parent_(leaves()) {
     if (inner() == 0) {
         if (leaves() == 1) leaf_parent_[0] = none;
         return;

@@ -35,9 +35,7 @@ class RadixTree {
     static constexpr std::uint32_t none = ~0u;
 
     /// keys: sorted by code, fewer than 2^31; they must outlive the tree.
-    explicit RadixTree(std::span<const MortonKey> keys) : RadixTree(keys, BigArray<MortonKey>(keys.size())) {}
-    /// The same, in the memory of as many keys that are no longer needed.
-    RadixTree(std::span<const MortonKey> keys, BigArray<MortonKey>&& memory);
+    explicit RadixTree(std::span<const MortonKey> keys);
 
     std::span<const MortonKey> keys() const { return keys_; }
     std::size_t leaves() const { return keys_.size(); }
@@ -59,13 +57,12 @@ class RadixTree {
 
     /// Calls visit(number, node) for every inner node after both of its children were visited, in parallel:
     /// from each leaf a way leads up; of the two that arrive at a node the first ends there and the second
-    /// goes on (section 4). arrive(leaf) is called before a leaf's way begins.
-    template <class Arrive, class Visit>
-    void bottom_up(const Arrive& arrive, const Visit& visit) const {
+    /// goes on (section 4).
+    template <class Visit>
+    void bottom_up(const Visit& visit) const {
         auto arrived = std::make_unique<std::atomic<std::uint8_t>[]>(inner());
         parallel_ranges(leaves(), grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t leaf = begin; leaf < end; ++leaf) {
-                arrive(leaf);
                 std::uint32_t number = leaf_parent_[leaf];
                 while (number != none) {
                     const Node n = node(number);
@@ -97,9 +94,8 @@ class RadixTree {
     Link find(std::int64_t i) const;
 
     std::span<const MortonKey> keys_;
-    BigArray<MortonKey> memory_; // holds the three arrays
-    Link* nodes_;
-    std::uint32_t *inner_parent_, *leaf_parent_;
+    BigArray<Link> nodes_;
+    BigArray<std::uint32_t> inner_parent_, leaf_parent_;
 };
 
 } // namespace alhazen

@@ -15,7 +15,10 @@ Tree build(const Primitives& primitives, std::span<const Bounds3> boxes, const B
     ReferenceList list = make_references(boxes, std::max(0.0f, options.extra_references));
     if (list.count == 0) return {};
     SpatialSplitter splitter(primitives, boxes, list.extent.box);
-    return build_top_down(std::move(list), options, &splitter);
+    // The builder for the best trees does not leave the last splits out.
+    BuildOptions careful = options;
+    careful.joined = 0;
+    return build_top_down(std::move(list), careful, &splitter);
 }
 
 } // namespace

@@ -93,6 +93,10 @@ class TopDown {
     // A subtree over few references, which stay where they are.
     void build_small(std::span<Reference> references, const LaneBox& box, Run& run) const {
         std::uint32_t node = run.add_node(box.bounds());
+        if (references.size() <= options_.joined / 2) {
+            make_leaf(references, node, run);
+            return;
+        }
         SmallSplit split;
         if (references.size() > 1) split = best_small_split(references, tests_);
         if (is_leaf(references.size(), box, split.cost) || references.size() == 1) {

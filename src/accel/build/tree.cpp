@@ -1,6 +1,7 @@
 #include "accel/build/tree.h"
 
 #include "base/hash.h"
+#include "base/threads.h"
 
 namespace alhazen {
 
@@ -131,19 +132,75 @@ double end_point_overlap(const Tree& tree, const Primitives& primitives, std::si
     return sum / static_cast<double>(samples);
 }
 
-void refit(Tree& tree, std::span<const Bounds3> boxes) {
-    // Children stand behind their parents.
-    for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-        Tree::Node& n = tree.nodes[i];
+namespace {
+
+class Refit {
+  public:
+    Refit(Tree& tree, std::span<const Bounds3> boxes) : tree_(tree), boxes_(boxes) {}
+
+    // Whether every primitive that can be hit has a place, and there is one.
+    bool is_enough() {
+        std::vector<std::uint8_t> has_place(boxes_.size(), 0);
+        std::size_t present = 0;
+        for (std::uint32_t primitive : tree_.order) {
+            has_place[primitive] = 1;
+            present += !boxes_[primitive].empty();
+        }
+        some_are_empty_ = present < tree_.order.size();
+        for (std::size_t i = 0; i < boxes_.size(); ++i)
+            if (!has_place[i] && !boxes_[i].empty()) return false;
+        return present > 0;
+    }
+    void run() {
+        fit(0, tree_.nodes.size());
+        if (!some_are_empty_) return;
+        // What holds nothing any more becomes a point of the node above.
+        for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
+            const Tree::Node& n = tree_.nodes[i];
+            if (n.is_leaf()) continue;
+            for (std::size_t child : {i + 1, std::size_t{n.first_or_right}})
+                if (Bounds3& box = tree_.nodes[child].bounds; box.empty()) box = {n.bounds.lo, n.bounds.lo};
+        }
+    }
+
+  private:
+    static constexpr std::size_t task_size = 16384;
+
+    // A subtree, whose nodes stand one after another, in parallel where it is large.
+    void fit(std::size_t node, std::size_t end) {
+        if (end - node > task_size && !tree_.nodes[node].is_leaf()) {
+            const std::size_t right = tree_.nodes[node].first_or_right;
+            parallel_invoke([&] { fit(node + 1, right); }, [&] { fit(right, end); });
+            fit(node);
+        } else {
+            // Children stand behind their parents.
+            for (std::size_t i = end; i-- > node;) fit(i);
+        }
+    }
+    void fit(std::size_t node) {
+        Tree::Node& n = tree_.nodes[node];
         n.bounds = {};
         if (n.is_leaf()) {
             for (std::uint32_t k = 0; k < n.count; ++k)
-                n.bounds.extend(boxes[tree.order[n.first_or_right + k]]);
+                n.bounds.extend(boxes_[tree_.order[n.first_or_right + k]]);
         } else {
-            n.bounds.extend(tree.nodes[i + 1].bounds);
-            n.bounds.extend(tree.nodes[n.first_or_right].bounds);
+            n.bounds.extend(tree_.nodes[node + 1].bounds);
+            n.bounds.extend(tree_.nodes[n.first_or_right].bounds);
         }
     }
+
+    Tree& tree_;
+    std::span<const Bounds3> boxes_;
+    bool some_are_empty_ = false;
+};
+
+} // namespace
+
+bool refit(Tree& tree, std::span<const Bounds3> boxes) {
+    Refit refit(tree, boxes);
+    if (!refit.is_enough()) return false;
+    refit.run();
+    return true;
 }
 
 } // namespace alhazen

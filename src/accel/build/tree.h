@@ -26,7 +26,8 @@ struct Tree {
         bool is_leaf() const { return count > 0; }
     };
     std::vector<Node> nodes; ///< in depth-first order
-    /// Primitive numbers, leaf after leaf. A primitive that was split stands there more than once; those
+    /// Primitive numbers, leaf after leaf as the leaves follow one another among the nodes: any subtree's
+    /// primitives are a run. A primitive that was split stands there more than once; those
     /// whose box is empty are left out.
     std::vector<std::uint32_t> order;
 };
@@ -39,6 +40,9 @@ struct BuildOptions {
     std::uint32_t leaf_size = 4;
     /// Primitives that the walk tests at once: a leaf of n costs ceil(n / block) tests.
     std::uint32_t block = 1;
+    /// How many primitives the layout itself joins in a leaf, at the cost of one test (0: it does not).
+    /// Builders need not choose with care what is in there: such a run, or half of it, may come as one leaf.
+    std::uint32_t joined = 0;
     /// References that spatial splits may add, as a fraction of the primitives (>= 0).
     float extra_references = 0.3f;
 };
@@ -63,7 +67,9 @@ TreeStats stats_of(const Tree& tree, float node_cost = 1.0f, std::uint32_t block
 double end_point_overlap(const Tree& tree, const Primitives& primitives, std::size_t samples = 20000);
 
 /// Fits the tree's boxes to primitives that have moved (boxes as padded_boxes gives them); the tree's shape
-/// stays. Primitives that were split get their whole box in each place.
-void refit(Tree& tree, std::span<const Bounds3> boxes);
+/// stays. Primitives that were split get their whole box in each place; those that cannot be hit any more
+/// keep a place without extent. False, and the tree as it was, where that is not enough and the tree must be
+/// built anew: a primitive that stands nowhere in it can be hit now, or none can.
+bool refit(Tree& tree, std::span<const Bounds3> boxes);
 
 } // namespace alhazen

@@ -19,7 +19,7 @@
 #include <array>
 #include <bit>
 
-#include "accel/layout/wide_tree.h"
+#include "accel/layout/collapse.h"
 #include "accel/structure.h"
 
 namespace alhazen {
@@ -68,6 +68,6 @@ struct CompressedLayout {
 /// The slot for each of at most 8 children of a node, each slot used once: so that the sum over children of
 /// dot(child's centroid - node's centroid, direction of the slot) is least, where the direction of slot s is
 /// -1 along the axes whose bit is set in s and +1 along the others (section 3.3 of the article).
-std::array<int, CompressedNode::slots> assign_slots(std::span<const WideTree::Child> children);
+std::array<int, CompressedNode::slots> assign_slots(std::span<const WideChild> children);
 
 } // namespace alhazen

@@ -14,10 +14,9 @@
 /// node's size, not by what is in BoxRay; planes are put back where they were instead, and meshes do not
 /// leak. Lost is the sorting by distance: the fixed order visits more nodes than a sorted one, and a group
 /// waits without its distances. Smaller nodes remain an advantage wherever the tree exceeds the caches.
-#include "accel/layout/compressed.h"
 #include "accel/list.h"
-#include "accel/walk/walk_structure.h"
-#include "base/lanes.h"
+#include "accel/walk/compressed_structure.h"
+#include "accel/walk/compressed_test.h"
 
 namespace alhazen {
 
@@ -30,35 +29,24 @@ struct Group {
     bool has_nodes() const { return mask > 0x00ffffff; }
 };
 
-Lanes4 to_floats(const std::uint8_t* from) {
-    using Bytes4 = std::uint8_t __attribute__((vector_size(4)));
-    Bytes4 bytes;
-    std::memcpy(&bytes, from, sizeof bytes);
-    return __builtin_convertvector(__builtin_convertvector(bytes, IntLanes4), Lanes4);
-}
-
-class CompressedTest {
+/// A slot's bit among the nodes of a group is 24 + (slot ^ octant).
+class GroupTest {
   public:
-    explicit CompressedTest(const BoxRay& ray) : ray_(ray) {
-        for (int axis = 0; axis < 3; ++axis)
-            if (!ray.near_side[axis]) octant_ |= 1u << axis;
-    }
+    explicit GroupTest(const BoxRay& ray) : test_(ray) {}
 
-    /// A slot's bit among the nodes of a group is 24 + (slot ^ octant).
-    std::uint32_t octant() const { return octant_; }
-
+    std::uint32_t octant() const { return test_.octant(); }
     /// Nodes that are hit in bits 24 ... 31, primitives of leaves that are hit in bits 0 ... 23.
     template <class Counter>
     std::uint32_t operator()(const CompressedNode& node, float tmax, Counter& counter) const {
         std::uint32_t mask = 0;
         for (int first = 0; first < CompressedNode::slots; first += 4) {
-            const IntLanes4 hit = test_four(node, first, tmax);
+            const IntLanes4 hit = test_(node, first, tmax).is_hit;
             for (int i = 0; i < 4; ++i) {
                 if (!hit[i]) continue;
                 const std::uint32_t meta = node.meta[first + i];
                 std::uint32_t place = meta & 31;
                 if (place >= 24)
-                    place ^= octant_;
+                    place ^= octant();
                 else if (meta != 0)
                     counter.leaf();
                 mask |= (meta >> 5) << place; // nothing for an empty slot
@@ -68,21 +56,7 @@ class CompressedTest {
     }
 
   private:
-    IntLanes4 test_four(const CompressedNode& node, int first, float tmax) const {
-        Lanes4 entry = all_lanes(0), exit = all_lanes(tmax);
-        for (int axis = 0; axis < 3; ++axis) {
-            const int near = ray_.near_side[axis];
-            const float step = node.step(axis), origin = node.origin[axis];
-            const Lanes4 in = to_floats(node.planes[near][axis] + first) * step + origin;
-            const Lanes4 out = to_floats(node.planes[1 - near][axis] + first) * step + origin;
-            entry = max_lanes(in * ray_.enter_scale[axis] - ray_.enter_offset[axis], entry);
-            exit = min_lanes(out * ray_.leave_scale[axis] - ray_.leave_offset[axis], exit);
-        }
-        return entry <= exit;
-    }
-
-    BoxRay ray_;
-    std::uint32_t octant_ = 0;
+    CompressedTest test_;
 };
 
 struct CompressedWalk {
@@ -91,8 +65,8 @@ struct CompressedWalk {
     template <Query query, class Counter>
     static void walk(const CompressedLayout& layout, const BoxRay& ray, Nearest<query>& nearest,
                      Counter& counter) {
-        const CompressedTest test(ray);
-        Group stack[WideTree::max_depth];
+        const GroupTest test(ray);
+        Group stack[CollapsedTree::max_depth];
         int height = 0;
         Group nodes{0, 0x80000000u}; // the root, as the only child of nothing
         for (;;) {
@@ -122,12 +96,7 @@ struct CompressedWalk {
 };
 
 std::unique_ptr<Structure> make(const Primitives& primitives, const Tree& tree, const WalkOptions&) {
-    CompressedLayout layout(tree);
-    // Leaves are found in the layout's own order.
-    Tree rearranged;
-    if (!tree.nodes.empty()) rearranged.nodes.push_back(tree.nodes[0]);
-    rearranged.order = std::move(layout.order);
-    return std::make_unique<WalkStructure<CompressedWalk>>(primitives, rearranged, std::move(layout));
+    return make_compressed<CompressedWalk>(primitives, tree);
 }
 
 } // namespace

@@ -14,11 +14,13 @@
 /// go through one vector operation; for that the node's rows, which the article gives to children (x and y
 /// planes of one child in a row), are turned into columns. Lost is the GPU's abundance: registers for
 /// thousands of rays; here each switch moves a ray's state through the first cache. A single ray gets the
-/// wide nodes only. Nodes are chosen by collapse() instead of opening the largest child first.
+/// wide nodes only. The article fills a node by opening the child of largest surface, and before that one of
+/// two leaves, so that no node is left half empty; collapse() finds the cheapest of all choices, these among
+/// them.
 #include <array>
 #include <optional>
 
-#include "accel/layout/wide_node.h"
+#include "accel/layout/multi_node.h"
 #include "accel/list.h"
 #include "accel/walk/walk_structure.h"
 
@@ -27,7 +29,7 @@ namespace alhazen {
 namespace {
 
 constexpr int width = 4;
-using Layout = WideLayout<width>;
+using Layout = MultiLayout<width>;
 
 /// A ray on its way.
 template <Query query>
@@ -44,7 +46,7 @@ class Flight {
             return pop();
         }
         counter.node();
-        const WideNode<width>& node = layout.nodes[current_.index];
+        const MultiNode<width>& node = layout.nodes[current_.index];
         const auto hits = test_(node, nearest_.tmax());
         if (hits.count == 0) return pop();
         for (int i = hits.count - 1; i > 0; --i)
@@ -73,15 +75,15 @@ class Flight {
     }
 
     struct Entry {
-        WideChild child;
+        MultiChild child;
         float t;
     };
-    WideTest<width> test_;
+    MultiTest<width> test_;
     Nearest<query> nearest_;
-    WideChild current_{0, 0};
+    MultiChild current_{0, 0};
     int height_ = 0;
     // Not set to anything, which would take longer than a short walk.
-    Entry stack_[(width - 1) * WideTree::max_depth];
+    Entry stack_[(width - 1) * CollapsedTree::max_depth];
 };
 
 struct GutheWalk {
@@ -164,8 +166,7 @@ class GutheStructure final : public WalkStructure<GutheWalk> {
 };
 
 std::unique_ptr<Structure> make(const Primitives& primitives, const Tree& tree, const WalkOptions&) {
-    return std::make_unique<GutheStructure>(primitives, tree,
-                                            Layout(collapse(tree, width, Tree::max_leaf_size)));
+    return std::make_unique<GutheStructure>(primitives, tree, Layout(tree));
 }
 
 } // namespace

@@ -5,14 +5,15 @@
 /// (a bit a level, set where the other child was hit too and is still to be visited). To go back is
 /// arithmetic: the lowest set bit of the trail says how many levels up, the key cut there with its last bit
 /// flipped is the key of the node to visit, and a perfect hash leads from the key to the node. However deep
-/// the tree, that takes the same time. Keys and trail have 128 bits, since trees may be 96 levels deep; the
-/// article's have 32 or 64.
+/// the tree, that takes the same time. Often the node to go back to is the one that was put off last; where
+/// that is, is kept, and the hash is asked only for those before it. Keys and trail have 128 bits, since
+/// trees may be 96 levels deep; the article's have 32 or 64.
 ///
 /// On a GPU stacks of thousands of rays compete for little fast memory, and to have none frees it. A CPU
 /// keeps a stack in its first cache, where a push is nearly free; the hash's two dependent look-ups, in
 /// tables as large as the tree, are not. Lost, too, are the distances a stack could keep beside the nodes: a
 /// child put off is visited even if a nearer hit was found meanwhile. What remains is the least state a ray
-/// can have, 32 bytes whatever the tree.
+/// can have, 40 bytes whatever the tree.
 #include "accel/layout/hashed.h"
 #include "accel/list.h"
 #include "accel/walk/pair_test.h"
@@ -30,6 +31,8 @@ struct StacklessWalk {
                      Counter& counter) {
         const PairTest test(ray);
         BinaryChild current = layout.binary.root;
+        BinaryChild postponed; // the last one; known until it is visited
+        bool is_known = false;
         PathBits key = 1, trail = 0;
         for (;;) {
             if (current.count > 0) {
@@ -46,6 +49,10 @@ struct StacklessWalk {
                     trail = trail << 1 | static_cast<PathBits>(both);
                     key = key << 1 | static_cast<PathBits>(side);
                     current = node.child(side);
+                    if (both) {
+                        postponed = node.child(1 - side);
+                        is_known = true;
+                    }
                     continue;
                 }
             }
@@ -53,7 +60,8 @@ struct StacklessWalk {
             const int levels = trailing_zeros(trail);
             trail = trail >> levels ^ 1;
             key = key >> levels ^ 1;
-            current = layout.by_path.find(key);
+            current = is_known ? postponed : layout.by_path.find(key);
+            is_known = false;
         }
     }
 };

@@ -1,8 +1,8 @@
 #include "accel/wide/layout.h"
 
 #include <cstring>
-#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "base/threads.h"
 
@@ -24,14 +24,16 @@ constexpr std::size_t round_up(std::size_t n, std::size_t unit) {
 // again.
 class LeafContents {
   public:
-    LeafContents(const Tree& tree, const Primitives& primitives, const WideLeaf& leaf)
+    /// kinds: of all primitives; where there is one only, nobody has to ask for each.
+    LeafContents(const Tree& tree, const Primitives& primitives, const PrimitiveKinds& kinds,
+                 const WideLeaf& leaf)
         : is_custom_(leaf.is_custom) {
         for (std::uint32_t i = 0; i < leaf.count; ++i) {
             const std::uint32_t p = tree.order[leaf.first + i];
-            if ((primitives.kind(p) == PrimitiveKind::custom) != leaf.is_custom) continue;
             if (std::find(primitive_, primitive_ + count_, p) != primitive_ + count_) continue;
             primitive_[count_++] = p;
-            is_filtered_ |= primitives.kind(p) == PrimitiveKind::filtered_triangle;
+            if (kinds.filtered_triangle && !is_custom_)
+                is_filtered_ |= primitives.kind(p) == PrimitiveKind::filtered_triangle;
         }
     }
     /// In memory, and as a reference to that.
@@ -49,14 +51,15 @@ class LeafContents {
             at += 4;
         }
         auto* numbers = reinterpret_cast<std::uint32_t*>(at) + (is_custom_ ? 0u : 9 * count_);
+        std::copy_n(primitive_, count_, numbers);
+        if (is_custom_) return;
+        std::array<Corners, Tree::max_leaf_size> triangles;
+        primitives.gather_corners({primitive_, count_}, triangles.data());
         auto* coordinates = reinterpret_cast<float*>(at);
         for (std::uint32_t i = 0; i < count_; ++i) {
-            numbers[i] = primitive_[i];
-            if (is_custom_) continue;
             if (is_filtered_ && primitives.kind(primitive_[i]) == PrimitiveKind::filtered_triangle)
                 numbers[i] |= wide_filtered;
-            const Corners t = primitives.corners(primitive_[i]);
-            const Vec3 corner[3] = {t.a, t.b, t.c};
+            const Vec3 corner[3] = {triangles[i].a, triangles[i].b, triangles[i].c};
             for (std::uint32_t c = 0; c < 3; ++c)
                 for (std::uint32_t axis = 0; axis < 3; ++axis)
                     coordinates[(3 * c + axis) * count_ + i] = corner[c][static_cast<int>(axis)];
@@ -71,51 +74,6 @@ class LeafContents {
     bool is_custom_, is_filtered_ = false;
 };
 
-// Where everything is written, decided before anything is written.
-class Placement {
-  public:
-    Placement(const Tree& tree, const Primitives& primitives, const CollapsedTree& collapsed)
-        : tree_(tree), primitives_(primitives), next_(2 * wide_unit) {
-        if (collapsed.single_leaf.count > 0) {
-            root = place_leaf(collapsed.single_leaf);
-            return;
-        }
-        root = static_cast<std::uint32_t>(round_up(next_, alignof(WideNode)));
-        references.resize(collapsed.nodes.size());
-        at.resize(collapsed.nodes.size());
-        // A node's leaves follow it, so that they are fetched from the same page.
-        for (std::size_t i = 0; i < collapsed.nodes.size(); ++i) {
-            at[i] = next_ = round_up(next_, alignof(WideNode));
-            next_ += sizeof(WideNode);
-            for (std::size_t k = 0; k < static_cast<std::size_t>(collapsed.nodes[i].count); ++k)
-                if (collapsed.nodes[i].child[k].is_leaf())
-                    references[i][k] = place_leaf(collapsed.nodes[i].child[k].leaf);
-        }
-        for (std::size_t i = 0; i < collapsed.nodes.size(); ++i)
-            for (std::size_t k = 0; k < static_cast<std::size_t>(collapsed.nodes[i].count); ++k)
-                if (!collapsed.nodes[i].child[k].is_leaf())
-                    references[i][k] = static_cast<std::uint32_t>(at[collapsed.nodes[i].child[k].node]);
-        if (next_ > wide_address) throw std::length_error("an object of more than 4 GB of triangles");
-    }
-
-    std::size_t bytes() const { return next_; }
-    std::uint32_t root;
-    std::vector<std::array<std::uint32_t, 8>> references; // of the nodes' children
-    std::vector<std::size_t> at;                          // of the nodes
-
-  private:
-    std::uint32_t place_leaf(const WideLeaf& leaf) {
-        const LeafContents contents(tree_, primitives_, leaf);
-        const std::uint32_t reference = contents.reference_at(next_);
-        next_ += contents.bytes();
-        return reference;
-    }
-
-    const Tree& tree_;
-    const Primitives& primitives_;
-    std::size_t next_;
-};
-
 // In which order a ray of each of four octants of directions meets the children, farthest first; the other
 // four meet them the other way round. Octants: y and z backwards or not, x forwards.
 void write_orders(WideNode& node, const CollapsedNode& from) {
@@ -128,9 +86,12 @@ void write_orders(WideNode& node, const CollapsedNode& from) {
             distance[k] = dot(direction, b.lo * 0.5f + b.hi * 0.5f);
         }
         std::array<std::uint32_t, 8> place;
-        std::iota(place.begin(), place.end(), 0u);
-        std::stable_sort(place.begin(), place.end(),
-                         [&](std::uint32_t a, std::uint32_t b) { return distance[a] > distance[b]; });
+        // By insertion; equal ones stay in order.
+        for (std::uint32_t i = 0; i < 8; ++i) {
+            std::uint32_t k = i;
+            for (; k > 0 && distance[i] > distance[place[k - 1]]; --k) place[k] = place[k - 1];
+            place[k] = i;
+        }
         std::uint32_t bits = 0;
         for (std::uint32_t i = 0; i < 8; ++i) bits |= place[i] << (3 * i);
         for (std::uint32_t byte = 0; byte < 3; ++byte)
@@ -151,28 +112,78 @@ void write_node(WideNode& node, const CollapsedNode& from, const std::array<std:
     write_orders(node, from);
 }
 
+// Where everything stands: a node's leaves follow it, so that they are fetched from the same page.
+class Writer {
+  public:
+    Writer(const Tree& tree, const Primitives& primitives, const CollapsedTree& collapsed)
+        : tree_(tree), primitives_(primitives), kinds_(primitives.kinds()), collapsed_(collapsed),
+          at_(collapsed.nodes.size() + 1) {
+        const std::size_t count = collapsed.nodes.size();
+        parallel_for(count, 512, [&](std::size_t i) {
+            std::size_t bytes = sizeof(WideNode);
+            for (const WideChild& child : collapsed.nodes[i].children())
+                if (child.is_leaf()) bytes += contents(child.leaf).bytes();
+            at_[i] = round_up(bytes, alignof(WideNode));
+        });
+        std::size_t next = round_up(2 * wide_unit, alignof(WideNode));
+        for (std::size_t i = 0; i < count; ++i) next += std::exchange(at_[i], next);
+        if (collapsed.single_leaf.count > 0) next += contents(collapsed.single_leaf).bytes();
+        at_[count] = next;
+        if (next > wide_address) throw std::length_error("an object of more than 4 GB of triangles");
+    }
+
+    std::size_t bytes() const { return at_.back(); }
+    /// Writes everything; the root's reference.
+    std::uint32_t write(char* memory) const {
+        *reinterpret_cast<std::uint32_t*>(memory + (null_leaf & wide_address)) = 0;
+        if (collapsed_.single_leaf.count > 0) {
+            const std::size_t at = round_up(2 * wide_unit, alignof(WideNode));
+            return write_leaf(memory, at, collapsed_.single_leaf).reference_at(at);
+        }
+        parallel_for(collapsed_.nodes.size(), 512, [&](std::size_t i) { write_node_at(memory, i); });
+        return static_cast<std::uint32_t>(at_[0]);
+    }
+
+  private:
+    LeafContents contents(const WideLeaf& leaf) const { return {tree_, primitives_, kinds_, leaf}; }
+    LeafContents write_leaf(char* memory, std::size_t at, const WideLeaf& leaf) const {
+        const LeafContents leaf_contents = contents(leaf);
+        leaf_contents.write(memory + at, primitives_);
+        return leaf_contents;
+    }
+    void write_node_at(char* memory, std::size_t i) const {
+        const CollapsedNode& from = collapsed_.nodes[i];
+        std::array<std::uint32_t, 8> references;
+        std::size_t next = at_[i] + sizeof(WideNode);
+        for (std::size_t k = 0; k < from.children().size(); ++k) {
+            const WideChild& child = from.child[k];
+            references[k] = static_cast<std::uint32_t>(at_[child.node]);
+            if (!child.is_leaf()) continue;
+            const LeafContents leaf = write_leaf(memory, next, child.leaf);
+            references[k] = leaf.reference_at(next);
+            next += leaf.bytes();
+        }
+        write_node(*new (memory + at_[i]) WideNode, from, references);
+    }
+
+    const Tree& tree_;
+    const Primitives& primitives_;
+    PrimitiveKinds kinds_;
+    const CollapsedTree& collapsed_;
+    std::vector<std::size_t> at_; // of the nodes, and the end
+};
+
 } // namespace
 
 WideLayout::WideLayout(const Tree& tree, const Primitives& primitives) {
     if (tree.nodes.empty()) return;
     const CollapsedTree collapsed = collapse(tree, primitives, wide_costs, wide_stack - 8);
-    const Placement placement(tree, primitives, collapsed);
-    memory_ = BigArray<char>(placement.bytes() + slack);
-    root_ = placement.root;
+    const Writer writer(tree, primitives, collapsed);
+    memory_ = BigArray<char>(writer.bytes() + slack);
+    root_ = writer.write(memory_.data());
     nodes_ = collapsed.nodes.size();
     depth_ = collapsed.depth;
     cost_ = collapsed.cost;
-    auto write_leaf = [&](std::uint32_t reference, const WideLeaf& leaf) {
-        LeafContents(tree, primitives, leaf).write(memory_.data() + (reference & wide_address), primitives);
-    };
-    *reinterpret_cast<std::uint32_t*>(memory_.data() + (null_leaf & wide_address)) = 0;
-    if (collapsed.single_leaf.count > 0) write_leaf(root_, collapsed.single_leaf);
-    parallel_for(collapsed.nodes.size(), 512, [&](std::size_t i) {
-        const CollapsedNode& from = collapsed.nodes[i];
-        write_node(*new (memory_.data() + placement.at[i]) WideNode, from, placement.references[i]);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(from.count); ++k)
-            if (from.child[k].is_leaf()) write_leaf(placement.references[i][k], from.child[k].leaf);
-    });
 }
 
 } // namespace alhazen

@@ -1,8 +1,8 @@
 /// The production structure in memory: nodes of eight children and the leaves' triangles, in one block.
 #pragma once
 
+#include "accel/layout/collapse.h"
 #include "accel/structure.h"
-#include "accel/wide/collapse.h"
 #include "accel/wide/kernel.h"
 #include "base/big_array.h"
 

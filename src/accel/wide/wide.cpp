@@ -207,7 +207,7 @@ std::unique_ptr<Structure> make(const Primitives& primitives, const Tree& tree, 
 AccelWalk wide_walk() {
     return {"wide",
             "eight children a node, sixteen rays in flight: the production structure",
-            {.leaf_size = 1},
+            {.leaf_size = 1, .joined = 8},
             make};
 }
 

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "accel/build/tree.h"
+#include "base/threads.h"
 
 namespace alhazen::accel_test {
 
@@ -23,6 +26,7 @@ int check_shape(const Tree& tree, const VisitLeaf& visit_leaf) {
     std::vector<Visit> stack{{0, 0}};
     std::size_t visited = 0;
     int deepest = 0;
+    std::uint32_t next_place = 0;
     while (!stack.empty()) {
         auto [i, depth] = stack.back();
         stack.pop_back();
@@ -33,6 +37,8 @@ int check_shape(const Tree& tree, const VisitLeaf& visit_leaf) {
         const Tree::Node& n = tree.nodes[i];
         if (n.is_leaf()) {
             EXPECT_LE(n.count, Tree::max_leaf_size);
+            EXPECT_EQ(n.first_or_right, next_place);
+            next_place += n.count;
             EXPECT_LE(n.first_or_right + n.count, tree.order.size());
             visit_leaf(n);
             continue;
@@ -63,6 +69,21 @@ inline int check_tree_of_boxes(const Tree& tree, const std::vector<Bounds3>& box
     });
     for (std::size_t i = 0; i < boxes.size(); ++i) EXPECT_EQ(seen[i], boxes[i].empty() ? 0 : 1) << i;
     return depth;
+}
+
+/// build(), which gives a tree, gives the same bits on 1, 2 and 3 threads.
+template <class Build>
+void expect_same_on_any_threads(const Build& build) {
+    Tree first;
+    for (int threads : {1, 2, 3}) {
+        Tree tree;
+        with_threads(threads, [&] { tree = build(); });
+        if (threads == 1) first = tree;
+        ASSERT_EQ(tree.nodes.size(), first.nodes.size());
+        const std::size_t bytes = tree.nodes.size() * sizeof(Tree::Node);
+        EXPECT_EQ(std::memcmp(tree.nodes.data(), first.nodes.data(), bytes), 0) << threads << " threads";
+        EXPECT_EQ(tree.order, first.order);
+    }
 }
 
 } // namespace alhazen::accel_test

@@ -140,9 +140,9 @@ TEST(CompressedLayout, OrderIsARearrangement) {
     }
 }
 
-double cost_of(std::span<const WideTree::Child> children, std::span<const int> slot_of) {
+double cost_of(std::span<const WideChild> children, std::span<const int> slot_of) {
     Bounds3 box;
-    for (const WideTree::Child& c : children) box.extend(c.bounds);
+    for (const WideChild& c : children) box.extend(c.bounds);
     double cost = 0;
     for (std::size_t i = 0; i < children.size(); ++i) {
         Vec3d d = Vec3d(children[i].bounds.centroid()) - Vec3d(box.centroid());
@@ -152,10 +152,10 @@ double cost_of(std::span<const WideTree::Child> children, std::span<const int> s
 }
 
 TEST(Slots, ChildrenInTheCornersOfACubeSitInTheirOctants) {
-    std::vector<WideTree::Child> children;
+    std::vector<WideChild> children;
     for (int corner : {5, 2, 7, 0, 3, 6, 1, 4}) {
         Vec3 p{corner & 1 ? 1.0f : 0.0f, corner & 2 ? 1.0f : 0.0f, corner & 4 ? 1.0f : 0.0f};
-        children.push_back({{p, p + Vec3{0.5f, 0.5f, 0.5f}}, 0, 1});
+        children.push_back({{p, p + Vec3{0.5f, 0.5f, 0.5f}}, {0, 1}});
     }
     auto slot_of = assign_slots(children);
     EXPECT_EQ(slot_of, (std::array<int, 8>{5, 2, 7, 0, 3, 6, 1, 4}));
@@ -167,10 +167,10 @@ TEST(Slots, NoOtherAssignmentIsBetter) {
     Rng rng(5);
     for (std::size_t n = 1; n <= 5; ++n)
         for (int repeat = 0; repeat < 10; ++repeat) {
-            std::vector<WideTree::Child> children;
+            std::vector<WideChild> children;
             for (std::size_t i = 0; i < n; ++i) {
                 Vec3 p = random_point(rng, 1);
-                children.push_back({{p, p + Vec3{0.1f, 0.1f, 0.1f}}, 0, 1});
+                children.push_back({{p, p + Vec3{0.1f, 0.1f, 0.1f}}, {0, 1}});
             }
             auto found = assign_slots(children);
             std::array<int, 8> slots{0, 1, 2, 3, 4, 5, 6, 7};

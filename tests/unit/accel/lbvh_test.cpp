@@ -1,7 +1,6 @@
 #include "accel/build/lbvh.h"
 
-#include <cstring>
-
+#include "accel/build/leaf_runs.h"
 #include "accel/build/radix_tree.h"
 #include "tests/unit/accel/check_tree.h"
 #include "tests/unit/accel/support.h"
@@ -70,16 +69,66 @@ TEST(RadixTree, NodesAreVisitedAfterTheirChildren) {
     sort_by_code(keys);
     RadixTree tree(keys);
     std::vector<std::uint32_t> sum(tree.inner(), 0);
-    std::atomic<std::size_t> arrived = 0, visited = 0;
-    tree.bottom_up([&](std::size_t) { ++arrived; },
-                   [&](std::uint32_t i, RadixTree::Node n) {
-                       sum[i] = (n.split == n.first ? 1 : sum[n.split]) +
-                                (n.split + 1 == n.last ? 1 : sum[n.split + 1]);
-                       EXPECT_EQ(sum[i], n.count());
-                       ++visited;
-                   });
-    EXPECT_EQ(arrived, tree.leaves());
+    std::atomic<std::size_t> visited = 0;
+    tree.bottom_up([&](std::uint32_t i, RadixTree::Node n) {
+        sum[i] = (n.split == n.first ? 1 : sum[n.split]) + (n.split + 1 == n.last ? 1 : sum[n.split + 1]);
+        EXPECT_EQ(sum[i], n.count());
+        ++visited;
+    });
     EXPECT_EQ(visited, tree.inner());
+}
+
+// The runs as the radix tree has them.
+void collect_runs(const RadixTree& tree, std::uint32_t first, std::uint32_t last, std::uint32_t number,
+                  std::uint32_t size, std::vector<std::uint32_t>& firsts) {
+    if (last - first + 1 <= size) {
+        firsts.push_back(first);
+        return;
+    }
+    const RadixTree::Node n = tree.node(number);
+    collect_runs(tree, n.first, n.split, n.split, size, firsts);
+    collect_runs(tree, n.split + 1, n.last, n.split + 1, size, firsts);
+}
+
+TEST(LeafRuns, AreTheLargestSubtreesOfSoManyKeys) {
+    for (std::size_t n : {1u, 2u, 8u, 9u, 100u, 20000u})
+        for (int bits : {2, 5, 21})
+            for (std::uint32_t size : {1u, 2u, 3u, 8u, 16u}) {
+                auto keys = morton_keys(random_triangles(n, 1, 0.01f, n).boxes(), bits);
+                sort_by_code(keys);
+                std::vector<std::uint32_t> expected;
+                RadixTree tree(keys);
+                collect_runs(tree, 0, static_cast<std::uint32_t>(n - 1), 0, size, expected);
+                LeafRuns runs(keys, size);
+                ASSERT_EQ(runs.count(), expected.size()) << n << " keys of " << bits << " bits";
+                for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_EQ(runs.first(i), expected[i]);
+                EXPECT_EQ(runs.first(runs.count()), n);
+            }
+}
+
+TEST(Lbvh, ALayoutThatJoinsPrimitivesGetsThemJoined) {
+    Triangles t = random_triangles(5000, 1, 0.01f, 7);
+    auto boxes = t.boxes();
+    Tree joined = lbvh_builder().build(t, boxes, {.leaf_size = 1, .joined = 8});
+    Tree expected = build_lbvh(boxes, {.leaf_size = 8, .block = 8});
+    check_tree_of_boxes(joined, boxes);
+    ASSERT_EQ(joined.nodes.size(), expected.nodes.size());
+    EXPECT_EQ(joined.order, expected.order);
+    EXPECT_GT(5000.0 / static_cast<double>(stats_of(joined).leaves), 4);
+    EXPECT_EQ(stats_of(build_lbvh(boxes, {.leaf_size = 1})).leaves, 5000u);
+}
+
+TEST(BuildTree, OnlyTrianglesAreJoined) {
+    Triangles t = random_triangles(1000, 1, 0.01f, 8);
+    for (const char* builder : {"lbvh", "sah", "lbvh+reinsertion"}) {
+        const AccelChoice choice{builder, "wide", {}};
+        t.kinds.clear();
+        const std::size_t joined = stats_of(build_tree(t, choice)).leaves;
+        t.kinds.assign(t.list.size(), PrimitiveKind::custom);
+        const std::size_t single = stats_of(build_tree(t, choice)).leaves;
+        EXPECT_EQ(single, 1000u) << builder;
+        EXPECT_EQ(joined < single, std::string(builder) != "lbvh+reinsertion") << builder;
+    }
 }
 
 TEST(Lbvh, BuildsAProperTree) {
@@ -164,16 +213,7 @@ TEST(Lbvh, TheNumberOfThreadsDoesNotChangeABit) {
     auto boxes = random_triangles(120000, 1, 0.01f, 5).boxes();
     for (std::size_t i = 0; i < boxes.size(); i += 7) boxes[i] = boxes[i / 2]; // some coincide
     for (std::size_t i = 3; i < boxes.size(); i += 11) boxes[i].lo.x = -0.0f, boxes[i].hi.x = 0.0f;
-    Tree first;
-    for (int threads : {1, 2, 3}) {
-        Tree tree;
-        with_threads(threads, [&] { tree = build_lbvh(boxes, {}); });
-        if (threads == 1) first = tree;
-        ASSERT_EQ(tree.nodes.size(), first.nodes.size());
-        EXPECT_EQ(std::memcmp(tree.nodes.data(), first.nodes.data(), tree.nodes.size() * sizeof(Tree::Node)),
-                  0);
-        EXPECT_EQ(tree.order, first.order);
-    }
+    expect_same_on_any_threads([&] { return build_lbvh(boxes, {}); });
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "accel/moving.h"
 #include "tests/unit/accel/support.h"
 
 namespace alhazen {
@@ -19,25 +20,28 @@ class Pairs : public testing::TestWithParam<AccelChoice> {
         return make_structure(primitives, GetParam());
     }
 
-    // One ray at a time, counted, and all in one batch.
     void expect_agreement(const Triangles& triangles, const std::vector<Ray>& rays, std::size_t least_hits) {
-        auto structure = make(triangles);
+        expect_agreement(*make(triangles), triangles, rays, least_hits);
+    }
+    // One ray at a time, counted, and all in one batch.
+    void expect_agreement(const Structure& structure, const Triangles& triangles,
+                          const std::vector<Ray>& rays, std::size_t least_hits) {
         TriangleTests tests(triangles);
         std::vector<Intersection> batch(rays.size());
         std::vector<std::uint8_t> blocked(rays.size(), 7);
-        structure->closest(rays, batch, tests);
-        structure->any(rays, blocked, tests);
+        structure.closest(rays, batch, tests);
+        structure.any(rays, blocked, tests);
         std::size_t hits = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             Intersection expected = triangles.brute_force(rays[i]), hit;
             WalkCounts counts;
-            ASSERT_EQ(structure->closest(rays[i], hit, tests), expected.found()) << "ray " << i;
+            ASSERT_EQ(structure.closest(rays[i], hit, tests), expected.found()) << "ray " << i;
             expect_same(hit, expected, i);
             expect_same(batch[i], expected, i);
-            ASSERT_EQ(structure->any(rays[i], tests), expected.found()) << "ray " << i;
+            ASSERT_EQ(structure.any(rays[i], tests), expected.found()) << "ray " << i;
             ASSERT_EQ(blocked[i], expected.found()) << "ray " << i;
-            ASSERT_EQ(structure->count(Query::closest, rays[i], tests, counts), expected.found());
-            ASSERT_EQ(structure->count(Query::any, rays[i], tests, counts), expected.found());
+            ASSERT_EQ(structure.count(Query::closest, rays[i], tests, counts), expected.found());
+            ASSERT_EQ(structure.count(Query::any, rays[i], tests, counts), expected.found());
             if (HasFatalFailure()) return;
             hits += expected.found();
         }
@@ -198,6 +202,47 @@ TEST_P(Pairs, DirectionsOfAnyLengthFindTheSame) {
         rays[i].d = rays[i].d * std::ldexp(1.0f, static_cast<int>(i % 80) - 40);
     }
     expect_agreement(t, rays, 50);
+}
+
+TEST_P(Pairs, FollowPrimitivesThatMove) {
+    Triangles t = random_triangles(300, 1, 0.3f, 21);
+    for (std::size_t i = 0; i < t.list.size(); ++i)
+        t.kinds.push_back(i % 5 < 3   ? PrimitiveKind::triangle
+                          : i % 5 < 4 ? PrimitiveKind::filtered_triangle
+                                      : PrimitiveKind::custom);
+    MovingStructure moving(t, GetParam());
+    const double cost = moving.expected_cost();
+    Rng rng(22);
+    const std::vector<Corners> start = t.list;
+    for (float distance : {0.05f, 0.3f, 3.0f}) {
+        for (std::size_t i = 0; i < t.list.size(); ++i) {
+            const Vec3 shift = random_point(rng, distance);
+            t.list[i] = {start[i].a + shift, start[i].b + shift, start[i].c + random_point(rng, 0.2f)};
+            // Some cannot be hit for a while.
+            if (i % 11 == 0) t.list[i].b = t.list[i].a;
+            if (i % 17 == 0) t.list[i].c.x = nan;
+        }
+        EXPECT_TRUE(moving.update(t));
+        const std::vector<Ray> rays = random_rays(t, 1, ray_count() / 2, 23);
+        expect_agreement(moving.structure(), t, rays, rays.size() / 20);
+    }
+    EXPECT_GT(moving.expected_cost(), cost);
+    t.list = start;
+    EXPECT_TRUE(moving.update(t));
+    expect_agreement(moving.structure(), t, random_rays(t, 1, ray_count() / 2, 24), ray_count() / 20);
+}
+
+TEST_P(Pairs, AreBuiltAnewForPrimitivesThatWereNotThere) {
+    Triangles t = random_triangles(40, 1, 0.5f, 25);
+    const Corners one = t.list[3];
+    t.list[3].b = t.list[3].a;
+    MovingStructure moving(t, GetParam());
+    t.list[3] = one;
+    EXPECT_FALSE(moving.update(t));
+    expect_agreement(moving.structure(), t, random_rays(t, 1, 200, 26), 20);
+    for (Corners& triangle : t.list) triangle.b = triangle.a;
+    EXPECT_FALSE(moving.update(t));
+    EXPECT_TRUE(moving.structure().bounds().empty());
 }
 
 TEST_P(Pairs, VisitLittleOfALargeInput) {

@@ -195,24 +195,42 @@ TEST(TreeStats, EndPointOverlapCountsSurfaceOfOthers) {
 }
 
 TEST(Refit, BoxesFollowThePrimitives) {
-    Triangles t = random_triangles(2000, 1, 0.1f, 8);
+    Triangles t = random_triangles(20000, 1, 0.1f, 8);
     Tree tree = build_sah(t.boxes());
     for (Corners& c : t.list)
         for (Vec3* p : {&c.a, &c.b, &c.c}) *p = Vec3{p->y, p->x * 2, p->z + 1};
-    refit(tree, t.boxes());
+    EXPECT_TRUE(refit(tree, t.boxes()));
     check_tree_of_boxes(tree, t.boxes());
-    for (const AccelWalk& walk : accel_walks()) {
-        auto structure = walk.make(t, tree, {});
-        NoTests tests;
-        Rng rng(9);
-        for (int i = 0; i < 500; ++i) {
-            Ray ray = random_ray(t, 1, rng);
-            Intersection hit, expected = t.brute_force(ray);
-            structure->closest(ray, hit, tests);
-            ASSERT_EQ(hit.primitive, expected.primitive) << walk.name;
-            ASSERT_EQ(hit.t, expected.t) << walk.name;
-        }
+    Bounds3 all;
+    for (const Bounds3& box : t.boxes()) all.extend(box);
+    EXPECT_EQ(tree.nodes[0].bounds.lo, all.lo);
+    EXPECT_EQ(tree.nodes[0].bounds.hi, all.hi);
+}
+
+TEST(Refit, WhatCannotBeHitAnyMoreHasNoExtent) {
+    Triangles t = random_triangles(100, 1, 0.1f, 9);
+    Tree tree = build_sah(t.boxes(), {.leaf_size = 1});
+    auto boxes = t.boxes();
+    for (std::size_t i = 0; i < 50; ++i) boxes[i] = {};
+    EXPECT_TRUE(refit(tree, boxes));
+    for (const Tree::Node& n : tree.nodes) {
+        EXPECT_FALSE(n.bounds.empty());
+        if (!n.is_leaf()) continue;
+        EXPECT_EQ(n.bounds.lo == n.bounds.hi, tree.order[n.first_or_right] < 50);
     }
+}
+
+TEST(Refit, RefusesWhatATreeOfOtherPrimitivesCannotFollow) {
+    Triangles t = random_triangles(100, 1, 0.1f, 10);
+    auto boxes = t.boxes(), fewer = boxes;
+    fewer[7] = {};
+    Tree tree = build_sah(fewer);
+    const Bounds3 before = tree.nodes[0].bounds;
+    EXPECT_FALSE(refit(tree, boxes));
+    EXPECT_FALSE(refit(tree, std::vector<Bounds3>(100)));
+    EXPECT_EQ(tree.nodes[0].bounds.lo, before.lo);
+    EXPECT_EQ(tree.nodes[0].bounds.hi, before.hi);
+    EXPECT_TRUE(refit(tree, fewer));
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "accel/layout/wide_node.h"
 #include "tests/unit/accel/support.h"
 
 namespace alhazen {
@@ -65,36 +64,6 @@ TEST(ShortStack, ChildrenAtTheSameDistanceAreAllVisited) {
         if (leaves == 0) leaves = counts.leaves;
         EXPECT_EQ(counts.leaves, leaves);
     }
-}
-
-TEST(ShortStack, ShorteningARayTakesChildrenOffTheEnd) {
-    Triangles t = random_triangles(500, 1, 0.5f, 4);
-    WideLayout<8> layout(collapse(sah_builder().build(t, t.boxes(), {}), 8, 8));
-    Rng rng(5);
-    for (int i = 0; i < 500; ++i) {
-        Ray ray = random_ray(t, 1, rng);
-        WideTest<8> test(BoxRay(ray, {{-2, -2, -2}, {2, 2, 2}}));
-        const WideNode<8>& node = layout.nodes[rng.below(static_cast<std::uint32_t>(layout.nodes.size()))];
-        const auto all = test(node, infinity), some = test(node, rng.uniform() * 4);
-        ASSERT_LE(some.count, all.count);
-        for (int k = 0; k < some.count; ++k) EXPECT_EQ(some.list[k].child, all.list[k].child);
-        for (int k = 1; k < all.count; ++k) {
-            EXPECT_LE(all.list[k - 1].t, all.list[k].t);
-            if (all.list[k - 1].t == all.list[k].t) {
-                EXPECT_LT(all.list[k - 1].child, all.list[k].child);
-            }
-        }
-    }
-}
-
-TEST(WideNode, ChildrenThatAreNotThereAreNeverHit) {
-    Triangles t = random_triangles(2, 1, 0.5f, 6);
-    WideLayout<8> layout(collapse(sah_builder().build(t, t.boxes(), {1, 1}), 8, 1));
-    ASSERT_EQ(layout.nodes.size(), 1u);
-    // Directions so short that all boxes are visited.
-    Ray ray{{0, 0, 0}, {1e-38f, 0, 0}};
-    const auto hits = WideTest<8>(BoxRay(ray, {{-2, -2, -2}, {2, 2, 2}}))(layout.nodes[0], infinity);
-    EXPECT_EQ(hits.count, 2);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-/// Wide nodes in plain floats: the planes of all children side by side, so that one vector operation tests
-/// four of them.
+/// Nodes of several children (multi bounding volume hierarchies) in plain floats: the planes of all children
+/// side by side, so that one vector operation tests four of them.
 ///
 ///     width 4, 128 bytes, two cache lines:
 ///     byte  0         32        64        96      112
@@ -8,14 +8,15 @@
 #pragma once
 
 #include "accel/box_ray.h"
-#include "accel/layout/wide_tree.h"
+#include "accel/layout/collapse.h"
 #include "accel/structure.h"
 #include "base/lanes.h"
+#include "base/threads.h"
 
 namespace alhazen {
 
 /// A child: a leaf's range in the order, or a node.
-struct WideChild {
+struct MultiChild {
     std::uint32_t index; ///< leaf: first place in the order; else number of a node
     std::int32_t count;  ///< leaf: primitives; 0 for a node; no_child where there is none
     static constexpr std::int32_t no_child = -1;
@@ -23,12 +24,12 @@ struct WideChild {
 };
 
 template <int width>
-struct alignas(64) WideNode {
+struct alignas(64) MultiNode {
     float slabs[3][2][width]; ///< axis; 0 lower, 1 upper; child
     std::uint32_t index[width];
     std::int32_t count[width];
 
-    WideChild child(int i) const { return {index[i], count[i]}; }
+    MultiChild child(int i) const { return {index[i], count[i]}; }
     Bounds3 bounds(int i) const {
         Bounds3 box;
         for (int axis = 0; axis < 3; ++axis) {
@@ -38,38 +39,42 @@ struct alignas(64) WideNode {
         return box;
     }
 };
-static_assert(sizeof(WideNode<4>) == 128 && sizeof(WideNode<8>) == 256);
+static_assert(sizeof(MultiNode<4>) == 128 && sizeof(MultiNode<8>) == 256);
 
 template <int width>
-struct WideLayout {
-    std::vector<WideNode<width>> nodes; ///< as in WideTree; 0 is the root
+struct MultiLayout {
+    std::vector<MultiNode<width>> nodes; ///< as in CollapsedTree, but for a root also above a single leaf
     int depth = 0;
 
-    WideLayout() = default;
-    /// tree's nodes have at most width children.
-    explicit WideLayout(const WideTree& tree) : nodes(tree.nodes.size()), depth(tree.depth) {
-        for (std::size_t n = 0; n < nodes.size(); ++n) {
-            auto children = tree.children_of(tree.nodes[n]);
-            for (std::size_t i = 0; i < width; ++i) {
-                const WideTree::Child child = i < children.size() ? children[i] : WideTree::Child{};
-                for (int axis = 0; axis < 3; ++axis) {
-                    nodes[n].slabs[axis][0][i] = child.bounds.lo[axis];
-                    nodes[n].slabs[axis][1][i] = child.bounds.hi[axis];
-                }
-                nodes[n].index[i] = child.index;
-                nodes[n].count[i] =
-                    i < children.size() ? static_cast<std::int32_t>(child.count) : WideChild::no_child;
+    MultiLayout() = default;
+    explicit MultiLayout(const Tree& tree)
+        : MultiLayout(collapse(tree, costs_by_primitive, {.width = width})) {}
+    /// wide: with at most width children a node.
+    explicit MultiLayout(const CollapsedTree& wide) : nodes(wide.nodes.size()), depth(wide.depth) {
+        parallel_for(nodes.size(), 1024, [&](std::size_t n) { write(nodes[n], wide.nodes[n].children()); });
+    }
+    LayoutStats stats() const { return {nodes.size(), depth, nodes.size() * sizeof(MultiNode<width>)}; }
+
+  private:
+    static void write(MultiNode<width>& node, std::span<const WideChild> children) {
+        for (std::size_t i = 0; i < width; ++i) {
+            const WideChild child = i < children.size() ? children[i] : WideChild{};
+            for (int axis = 0; axis < 3; ++axis) {
+                node.slabs[axis][0][i] = child.bounds.lo[axis];
+                node.slabs[axis][1][i] = child.bounds.hi[axis];
             }
+            node.index[i] = child.is_leaf() ? child.leaf.first : child.node;
+            node.count[i] =
+                i < children.size() ? static_cast<std::int32_t>(child.leaf.count) : MultiChild::no_child;
         }
     }
-    LayoutStats stats() const { return {nodes.size(), depth, nodes.size() * sizeof(WideNode<width>)}; }
 };
 
 /// A ray against all children of a wide node.
 template <int width>
-class WideTest {
+class MultiTest {
   public:
-    explicit WideTest(const BoxRay& ray) : ray_(ray) {}
+    explicit MultiTest(const BoxRay& ray) : ray_(ray) {}
 
     /// The children that are hit, nearest first, of equally near ones the first. That order depends on the
     /// node and the ray only: a smaller tmax takes children off the end.
@@ -80,7 +85,7 @@ class WideTest {
             int child;
         } list[width];
     };
-    Hits operator()(const WideNode<width>& node, float tmax) const {
+    Hits operator()(const MultiNode<width>& node, float tmax) const {
         Hits hits;
         for (int first = 0; first < width; first += 4) {
             Lanes4 entry = all_lanes(0), exit = all_lanes(tmax);
@@ -93,13 +98,10 @@ class WideTest {
             }
             const IntLanes4 hit = entry <= exit;
             for (int i = 0; i < 4; ++i)
-                if (hit[i] && node.count[first + i] != WideChild::no_child) insert(hits, entry[i], first + i);
+                if (hit[i] && node.count[first + i] != MultiChild::no_child)
+                    insert(hits, entry[i], first + i);
         }
         return hits;
-    }
-    /// Whether one child is hit.
-    bool meets(const WideNode<width>& node, int child, float tmax) const {
-        return ray_.test(node.bounds(child), tmax).is_hit();
     }
 
   private:
