@@ -13,7 +13,7 @@ PREFIX ?= /usr/local
 # For make sanitize, tsan: which tests, as ctest takes it (TESTS="-LE slow").
 TESTS ?=
 
-.PHONY: all render program build test check format sanitize tsan coverage tidy clang bench install clean
+.PHONY: all render program build test check format sanitize tsan coverage tidy clang bench performance performance-page install clean
 .NOTPARALLEL:
 
 all: render
@@ -86,6 +86,14 @@ bench:
 	@cmake -S . -B build >/dev/null
 	@cmake --build --preset release --target bench_accel
 	build/bin/bench_accel $(BENCH)
+
+# All of it, with the records and figures of docs/performance.md; and the figures alone, from the records.
+performance: BENCH = --json docs/performance.json --repeat 5 $(wildcard scenes/*.pbrt)
+performance: bench performance-page
+
+performance-page:
+	@test -x build/bin/bench_accel || $(MAKE) bench BENCH=--help
+	build/bin/bench_accel --from docs/performance.json --page docs/performance.md
 
 install: program
 	@cmake --build --preset release --target alhazen_library

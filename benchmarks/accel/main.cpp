@@ -1,7 +1,9 @@
-/// bench_accel: acceleration structures against Embree on generated meshes and on scene files. See docs/contributing.md.
+/// bench_accel: acceleration structures against Embree on generated meshes and on scene files. See
+/// docs/contributing.md.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <map>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +14,7 @@
 #include "benchmarks/accel/meshes.h"
 #include "benchmarks/accel/suite.h"
 #include "formats/format.h"
+#include "lab/peer.h"
 
 namespace alhazen::bench {
 namespace {
@@ -19,7 +22,7 @@ namespace {
 struct Arguments {
     BenchOptions options;
     std::vector<std::string> meshes, files, structures, parts;
-    std::string json, instructions;
+    std::string json, instructions, page, from;
     bool is_short = false;
 
     bool wants(std::string_view part) const {
@@ -36,10 +39,14 @@ void parse(CLI::App& app, int argc, char** argv, Arguments& a) {
     app.add_option("--part", a.parts, "walking, building, rendering (default: all)")->delimiter(',');
     app.add_option("--rays", a.options.lab.rays.rays, "of each kind");
     app.add_option("--repeat", a.options.lab.repeat, "times everything is timed");
-    app.add_option("--instructions", a.instructions, "plain, sse42, avx2 or avx512 where a walk has the choice");
+    app.add_option("--instructions", a.instructions,
+                   "plain, sse42, avx2 or avx512 where a walk has the choice");
     app.add_option("--threads", a.options.lab.threads, "for walking");
     app.add_option("--spp", a.options.spp, "samples per pixel of renders");
     app.add_option("--json", a.json, "write all records");
+    app.add_option("--page", a.page, "put plots and figures into this page, between its marks");
+    app.add_option("--from", a.from, "measure nothing; with --page: the records of an earlier run")
+        ->needs("--page");
     app.add_flag("--short", a.is_short, "a set that takes a few minutes");
     app.parse(argc, argv);
     if (a.structures.empty()) a.options.structures = {AccelChoice{}};
@@ -74,8 +81,8 @@ void print_means(const Json& records) {
     for (const Json& r : records) {
         if (r["embree_ratio"].is_null()) continue;
         auto text = [&](const char* key) { return r[key].get<std::string>(); };
-        ratios[fmt::format("{}/{:<12} {:<8} {:<8} {}", text("builder"), text("walk"), text("rays"), text("query"),
-                           text("mode"))]
+        ratios[fmt::format("{}/{:<12} {:<8} {:<8} {}", text("builder"), text("walk"), text("rays"),
+                           text("query"), text("mode"))]
             .push_back(r["embree_ratio"].get<double>());
     }
     if (!ratios.empty()) fmt::print("\nOver all scenes, times Embree: geometric mean, least\n");
@@ -87,8 +94,28 @@ void print_means(const Json& records) {
     }
 }
 
+// "AMD EPYC, 2 threads", as far as the system says.
+std::string machine() {
+    std::string model = "a processor of unknown name";
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.starts_with("model name")) {
+            model = line.substr(line.find(':') + 2);
+            break;
+        }
+    return fmt::format("{}, {} hardware threads", model, hardware_threads());
+}
+
 int run(const Arguments& a) {
-    Json json{{"walking", Json::array()}, {"building", Json::array()}, {"rendering", Json::array()}};
+    if (!a.from.empty()) {
+        write_page(Json::parse(read_file(a.from)), a.page);
+        return 0;
+    }
+    Json json{{"machine", machine()},
+              {"peer", peer_library()},
+              {"walking", Json::array()},
+              {"building", Json::array()},
+              {"rendering", Json::array()}};
     for (const GeneratedScene& scene : generated_scenes()) {
         bool named = std::find(a.meshes.begin(), a.meshes.end(), scene.name) != a.meshes.end();
         if (a.meshes.empty() ? a.is_short && !scene.is_short : !named) continue;
@@ -103,6 +130,7 @@ int run(const Arguments& a) {
     }
     print_means(json["walking"]);
     if (!a.json.empty()) write_file(a.json, json.dump(2) + "\n");
+    if (!a.page.empty()) write_page(json, a.page);
     return 0;
 }
 

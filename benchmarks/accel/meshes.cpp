@@ -205,6 +205,13 @@ SceneDescription hall(bool statues) {
     return scene_of(std::move(mesh), {{-13, 3, 0.5f}, {10, 4, -0.5f}, 60, {2, 10.5f, 1}, 1});
 }
 
+/// A single bumpy ball: what a structure costs where there is little to do.
+SceneDescription ball() {
+    Mesh mesh;
+    mesh.ball({0, 0, 0}, 1, 16, 0.1f);
+    return scene_of(std::move(mesh), {{0, 1, 3}, {0, 0, 0}, 50, {2, 4, 2}, 0.5f});
+}
+
 /// Two small balls of many triangles on the field of a stadium of few: the teapot in it.
 SceneDescription stadium() {
     Mesh mesh;
@@ -229,6 +236,7 @@ SceneDescription stadium() {
 
 std::vector<GeneratedScene> generated_scenes() {
     return {
+        {"ball", "a bumpy ball of a thousand triangles", false, [] { return ball(); }},
         {"hall", "a hall of columns and railings", true, [] { return hall(false); }},
         {"stadium", "two small balls in a huge stadium", true, [] { return stadium(); }},
         {"terrain-1m", "a terrain of a million triangles", true, [] { return terrain(708); }},

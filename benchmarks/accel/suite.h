@@ -1,6 +1,8 @@
 /// The parts of the benchmark. Each prints a table as it goes and returns its records.
 #pragma once
 
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 
 #include "lab/measure.h"
@@ -26,5 +28,10 @@ Json bench_building(World& world, const std::string& scene, const BenchOptions& 
 
 /// Whole pictures, with each way of handing rays to the structure.
 Json bench_rendering(const std::string& file, const BenchOptions& options);
+
+/// Turns the records of a run (the JSON that bench_accel writes) into plots beside a page, and the page's
+/// figures: what stands between its two marks. Throws SceneError or std::exception when the page or the
+/// records are not as expected.
+void write_page(const Json& records, const std::filesystem::path& page);
 
 } // namespace alhazen::bench

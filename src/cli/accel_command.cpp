@@ -12,6 +12,7 @@
 #include "cli/terminal.h"
 #include "formats/format.h"
 #include "lab/report.h"
+#include "lab/timing.h"
 
 namespace alhazen {
 
@@ -83,35 +84,40 @@ void write_output(const std::string& file, const std::string& text) {
     }
 }
 
+// How far to trust a median.
+std::string spread_text(double spread) {
+    return fmt::format("{:.0f} %", 100 * spread);
+}
+
 void print_builds(const LabReport& report) {
-    fmt::print("{:<26}{:>10}{:>12}{:>12}{:>7}{:>10}{:>10}\n", "structure", "build s", "bytes/tri", "nodes",
-               "depth", "SAH cost", "overlap");
+    fmt::print("{:<26}{:>10}{:>8}{:>12}{:>12}{:>7}{:>10}{:>10}\n", "structure", "build", "spread",
+               "bytes/tri", "nodes", "depth", "SAH cost", "overlap");
     for (const BuildRecord& b : report.builds)
-        fmt::print("{:<26}{:>10.4f}{:>12.1f}{:>12}{:>7}{:>10.2f}{:>10.3f}\n", b.choice.name(), b.build_s,
-                   b.bytes_per_triangle, b.nodes, b.depth, b.sah_cost, b.end_point_overlap);
+        fmt::print("{:<26}{:>10}{:>8}{:>12.1f}{:>12}{:>7}{:>10.2f}{:>10.3f}\n", b.choice.name(),
+                   timing_text(b.build_s), spread_text(b.build_spread), b.bytes_per_triangle, b.nodes,
+                   b.depth, b.sah_cost, b.end_point_overlap);
 }
 
 void print_walks(const LabReport& report) {
-    fmt::print("\n{:<26}{:<17}{:>9}{:>8}{:>9}{:>8}{:>8}{:>8}{:>7}\n", "structure", "rays", "single", "",
-               "batch", "", "nodes", "leaves", "stack");
+    fmt::print("\n{:<26}{:<17}{:>9}{:>8}{:>8}{:>9}{:>8}{:>8}{:>8}{:>8}{:>7}\n", "structure", "rays", "single",
+               "spread", "", "batch", "spread", "", "nodes", "leaves", "stack");
     auto ratio = [](const WalkRecord& w) {
         return w.peer_ratio ? fmt::format("{:.2f}x", *w.peer_ratio) : std::string();
     };
     for (std::size_t i = 0; i + 1 < report.walks.size(); i += 2) {
         const WalkRecord &single = report.walks[i], &batch = report.walks[i + 1];
-        fmt::print("{:<26}{:<17}{:>9.2f}{:>8}{:>9.2f}{:>8}{:>8.1f}{:>8.1f}{:>7}\n",
+        fmt::print("{:<26}{:<17}{:>9.2f}{:>8}{:>8}{:>9.2f}{:>8}{:>8}{:>8.1f}{:>8.1f}{:>7}\n",
                    report.builds[single.build].choice.name(),
                    fmt::format("{}, {}", name_of(single.rays), name_of(single.query)), single.mrays_per_s,
-                   ratio(single), batch.mrays_per_s, ratio(batch), single.nodes_per_ray,
-                   single.leaves_per_ray, single.max_stack);
+                   spread_text(single.spread), ratio(single), batch.mrays_per_s, spread_text(batch.spread),
+                   ratio(batch), single.nodes_per_ray, single.leaves_per_ray, single.max_stack);
     }
+    fmt::print("\nMillion rays a second, medians; the spread is from the slowest run to the fastest.\n");
     if (report.peer.empty())
-        fmt::print("\nMillion rays a second; nothing to compare with: {}.\n", report.why_alone);
+        fmt::print("There is nothing to compare with: {}.\n", report.why_alone);
     else
-        fmt::print(
-            "\nMillion rays a second, and how many times as fast as {}, built for quality and called in its "
-            "fastest way.\n",
-            report.peer);
+        fmt::print("How many times as fast as {}, built for quality and called in its fastest way.\n",
+                   report.peer);
 }
 
 int run_accel(AccelOptions& options) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 
 #if ALHAZEN_EMBREE >= 4
 #include <embree4/rtcore.h>
@@ -13,6 +12,8 @@
 #include <embree3/rtcore.h>
 #endif
 #include <fmt/format.h>
+
+#include "lab/timing.h"
 
 namespace alhazen {
 
@@ -137,9 +138,7 @@ class EmbreePeer final : public Peer {
         rtcReleaseGeometry(geometry);
         rtcSetSceneBuildQuality(scene_, quality_of(options.quality));
         rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
-        auto start = std::chrono::steady_clock::now();
-        rtcCommitScene(scene_);
-        seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        seconds_ = seconds_of(options.threads, [&] { rtcCommitScene(scene_); });
     }
     EmbreePeer(const EmbreePeer&) = delete;
     EmbreePeer& operator=(const EmbreePeer&) = delete;

@@ -24,6 +24,7 @@ struct LabOptions {
 struct BuildRecord {
     AccelChoice choice;
     double build_s = 0;            ///< median: from the scene's shapes to finished structures, of all objects
+    double build_spread = 0;       ///< (slowest - fastest) / median
     double bytes_per_triangle = 0; ///< of all objects; per primitive in scenes without triangles
     std::size_t nodes = 0;         ///< of the layout, of all objects
     int depth = 0;                 ///< edges from the root to the deepest leaf, of the scene's own structure

@@ -27,7 +27,7 @@ class Peer {
     virtual ~Peer() = default;
     /// "Embree 3.13.5 (AVX2)"
     virtual std::string name() const = 0;
-    virtual double build_seconds() const = 0; ///< by the wall clock
+    virtual double build_seconds() const = 0; ///< as seconds_of measures them
     /// Memory that it took while building and kept.
     virtual std::size_t bytes() const = 0;
     /// As Structure's functions for many rays; primitives have root's numbers.

@@ -115,10 +115,10 @@ std::string builds_section(const LabReport& report) {
     std::string rows;
     for (const BuildRecord& b : report.builds)
         rows +=
-            fmt::format("<tr><th scope=\"row\">{}</th><td>{:.4f}</td><td>{:.1f}</td><td>{}</td><td>{}</td>"
-                        "<td>{:.2f}</td><td>{:.3f}</td></tr>\n",
-                        escape_html(b.choice.name()), b.build_s, b.bytes_per_triangle, b.nodes, b.depth,
-                        b.sah_cost, b.end_point_overlap);
+            fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{:.0f} %</td><td>{:.1f}</td><td>{}</td>"
+                        "<td>{}</td><td>{:.2f}</td><td>{:.3f}</td></tr>\n",
+                        escape_html(b.choice.name()), timing_text(b.build_s), 100 * b.build_spread,
+                        b.bytes_per_triangle, b.nodes, b.depth, b.sah_cost, b.end_point_overlap);
     std::string plots =
         build_plot(report, "Time to build", "seconds", [](const BuildRecord& b) { return b.build_s; }) +
         build_plot(report, "Memory", "bytes a triangle",
@@ -132,8 +132,8 @@ std::string builds_section(const LabReport& report) {
                    "2013). Less is "
                    "better, everywhere on this table.</p>\n<div class=\"plots\">" +
                        plots +
-                       "</div>\n<div class=\"wide\"><table>\n<thead><tr><th>builder/walk</th><th>build, "
-                       "s</th><th>bytes a "
+                       "</div>\n<div class=\"wide\"><table>\n<thead><tr><th>builder/walk</th><th>build</th>"
+                       "<th>spread</th><th>bytes a "
                        "triangle</th><th>nodes</th><th>depth</th><th>SAH "
                        "cost</th><th>overlap</th></tr></thead>\n<tbody>" +
                        rows + "</tbody></table></div>\n");
@@ -149,6 +149,12 @@ float scale_of(const std::vector<Image>& visits) {
     return std::max(1.0f, std::ceil(*high));
 }
 
+// Half as bright is a quarter of the visits: wide trees, which visit few, are to be seen beside binary ones.
+Image of_visits(Image image, float most) {
+    for (float& visits : image.values()) visits = std::sqrt(visits / most);
+    return image;
+}
+
 std::string legend(float most) {
     std::string stops;
     for (int i = 0; i <= 8; ++i) {
@@ -162,7 +168,7 @@ std::string legend(float most) {
         "height=\"16\" fill=\"url(#magma)\"/><text class=\"tick\" x=\"14\" y=\"36\">0</text><text "
         "class=\"tick\" x=\"210\" y=\"36\">{:g} nodes visited</text><text class=\"tick end\" x=\"410\" "
         "y=\"36\">{:g} or more</text></svg>\n",
-        stops, most / 2, most);
+        stops, most / 4, most);
 }
 
 // An image and what is said below it; caption is HTML.
@@ -182,7 +188,7 @@ std::string visits_section(const LabReport& report) {
         double sum = 0;
         for (float v : image.values()) sum += static_cast<double>(v);
         std::string name = escape_html(report.builds[i].choice.name());
-        figures += picture(heat_map(image, 1 / most), "nodes visited by " + name,
+        figures += picture(heat_map(of_visits(image, most), 1), "nodes visited by " + name,
                            fmt::format("{}<br><small>{:.1f} a ray</small>", name,
                                        sum / static_cast<double>(image.values().size())));
         walks.insert(report.builds[i].choice.walk);
@@ -191,7 +197,8 @@ std::string visits_section(const LabReport& report) {
         "Where do rays spend their time?",
         "<div class=\"view\">" + picture(report.view, "the scene", "What the camera sees") +
             "<p>The same view through each structure: the brighter a pixel, the more nodes the ray through "
-            "it visited. All pictures have the same scale. Edges glow: a ray that just misses things looks "
+            "it visited (half as bright: a quarter of the nodes). All pictures have the same scale. Edges "
+            "glow: a ray that just misses things looks "
             "into many boxes and finds nothing there. A node with four or eight children decides more at a "
             "time, so wide trees visit fewer, each of which costs more.</p></div>\n" +
             legend(most) +
@@ -227,23 +234,26 @@ std::string methods_section(const LabReport& report) {
 std::string walks_section(const LabReport& report) {
     std::string rows;
     for (const WalkRecord& w : report.walks) {
-        if (w.mode != TraceMode::batch) continue;
         std::string ratio = w.peer_ratio ? fmt::format("{:.2f}", *w.peer_ratio) : "";
         std::string same =
             w.agreement ? fmt::format("{:.3f} %", 100 * (w.agreement->same + w.agreement->ties)) : "";
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{}</th><td>{} {}</td><td>{:.2f}</td><td>{:.0f} %</td><td>{}</td>"
-            "<td>{}</td><td>{:.1f}</td><td>{:.1f}</td><td>{:.2f}</td><td>{}</td></tr>\n",
-            escape_html(report.builds[w.build].choice.name()), name_of(w.rays), name_of(w.query),
-            w.mrays_per_s, 100 * w.spread, ratio, same, w.nodes_per_ray, w.leaves_per_ray, w.restarts_per_ray,
-            w.max_stack);
+        rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{} {}</td><td>{}</td><td>{:.2f}</td><td>{:.0f} "
+                            "%</td><td>{}</td>"
+                            "<td>{}</td><td>{:.1f}</td><td>{:.1f}</td><td>{:.2f}</td><td>{}</td></tr>\n",
+                            escape_html(report.builds[w.build].choice.name()), name_of(w.rays),
+                            name_of(w.query), name_of(w.mode), w.mrays_per_s, 100 * w.spread, ratio, same,
+                            w.nodes_per_ray, w.leaves_per_ray, w.restarts_per_ray, w.max_stack);
     }
-    return section("All the numbers",
-                   "<details><summary>Rays in batches, each builder, walk and kind of rays</summary><div "
-                   "class=\"wide\"><table>\n<thead><tr><th>builder/walk</th><th>rays</th><th>Mrays/s</th>"
-                   "<th>spread</th><th>ratio</th><th>agree</th><th>nodes</th><th>leaves</th><th>restarts</th>"
-                   "<th>stack</th></tr></thead>\n<tbody>" +
-                       rows + "</tbody></table></div></details>\n");
+    return section(
+        "All the numbers",
+        "<p>Medians; the spread is from the slowest run to the fastest. Nodes, leaves, restarts "
+        "(of walks without a full stack) are visits a ray; the stack is the most entries that "
+        "any ray had on it.</p>\n"
+        "<details><summary>Every builder, walk, kind of rays and way to hand them over</summary><div "
+        "class=\"wide\"><table>\n<thead><tr><th>builder/walk</th><th>rays</th><th>mode</th><th>Mrays/s</th>"
+        "<th>spread</th><th>ratio</th><th>agree</th><th>nodes</th><th>leaves</th><th>restarts</th>"
+        "<th>stack</th></tr></thead>\n<tbody>" +
+            rows + "</tbody></table></div></details>\n");
 }
 
 } // namespace

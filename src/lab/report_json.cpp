@@ -32,6 +32,7 @@ Json record(const LabReport& report, const WalkRecord& walk) {
     json["triangles"] = report.triangles;
     json["primitives"] = report.primitives;
     json["build_s"] = build.build_s;
+    json["build_spread"] = build.build_spread;
     json["bytes_per_triangle"] = build.bytes_per_triangle;
     json["nodes"] = build.nodes;
     json["depth"] = build.depth;

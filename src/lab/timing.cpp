@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <time.h>
 
 namespace alhazen {
@@ -40,6 +41,14 @@ double spread_of(const std::vector<double>& values) {
     if (!(median > 0)) return 0;
     auto [least, most] = std::minmax_element(values.begin(), values.end());
     return (*most - *least) / median;
+}
+
+std::string timing_text(double seconds) {
+    const auto text = [](double value, const char* unit) {
+        return fmt::format("{:.{}f} {}", value, value < 10 ? 2 : value < 100 ? 1 : 0, unit);
+    };
+    if (seconds < 1e-3) return text(seconds * 1e6, "us");
+    return seconds < 1 ? text(seconds * 1e3, "ms") : text(seconds, "s");
 }
 
 } // namespace alhazen

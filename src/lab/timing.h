@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace alhazen {
@@ -17,5 +18,8 @@ double processor_seconds_of(const std::function<void()>& work);
 double median_of(std::vector<double> values);
 /// (largest - smallest) / median: how far to trust it; 0 for none.
 double spread_of(const std::vector<double>& values);
+
+/// To be read: "1.23 s", "45.6 ms", "7.89 us".
+std::string timing_text(double seconds);
 
 } // namespace alhazen

@@ -6,6 +6,7 @@
 
 #include "lab/bar_plot.h"
 #include "lab/report.h"
+#include "lab/timing.h"
 
 namespace alhazen {
 namespace {
@@ -127,6 +128,27 @@ TEST(BarPlot, BarsAreAsLongAsTheirValues) {
     EXPECT_THAT(svg, HasSubstr(">0</text>"));
     EXPECT_THAT(svg, HasSubstr(">3</text>"));
     EXPECT_THAT(BarPlot{}.svg(), HasSubstr("</svg>"));
+}
+
+TEST(BarPlot, AFileOfItsOwnHasStyleAndKeys) {
+    BarPlot plot;
+    plot.title = "a < b";
+    plot.rows.push_back({"row", {{2, "first", "tip"}}});
+    plot.keys.push_back({"first", "what it is"});
+    const std::string file = plot.svg_file();
+    EXPECT_THAT(file, HasSubstr("xmlns=\"http://www.w3.org/2000/svg\""));
+    EXPECT_THAT(file, HasSubstr("<style>"));
+    EXPECT_THAT(file, HasSubstr("what it is"));
+    EXPECT_THAT(file, HasSubstr("a &lt; b"));
+    EXPECT_THAT(file, HasSubstr("class=\"first\""));
+    EXPECT_THAT(plot.svg(), Not(HasSubstr("<style>")));
+}
+
+TEST(Duration, HasAReadableUnit) {
+    EXPECT_EQ(timing_text(1.234), "1.23 s");
+    EXPECT_EQ(timing_text(0.0456), "45.6 ms");
+    EXPECT_EQ(timing_text(1.2e-5), "12.0 us");
+    EXPECT_EQ(timing_text(0.5), "500 ms");
 }
 
 } // namespace
