@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/ray.h"
+#include "cameras/projection.h"
 #include "color/spectrum.h"
 #include "describe/kind.h"
 
@@ -28,6 +29,8 @@ struct Camera {
     virtual bool has_lens() const { return false; }
     /// nullopt where the film receives no light.
     virtual std::optional<CameraRay> ray(const CameraSample& sample) const = 0;
+    /// The map whose rays these are; nullopt for cameras with a lens, or that bend straight lines.
+    virtual std::optional<Projection> projection() const { return std::nullopt; }
 
     float shutteropen = 0;  ///< seconds
     float shutterclose = 1; ///< seconds

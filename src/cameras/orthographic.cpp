@@ -30,6 +30,11 @@ class OrthographicCamera final : public FlatCamera {
         return make_ray({lens.x, lens.y, 0}, {s.x - lens.x, s.y - lens.y, static_cast<double>(focaldistance)},
                         time);
     }
+
+    std::optional<Projection> projection() const override {
+        if (lensradius > 0) return std::nullopt;
+        return projection_of(1, false);
+    }
 };
 
 } // namespace

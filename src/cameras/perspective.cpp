@@ -52,6 +52,11 @@ class PerspectiveCamera final : public FlatCamera {
         return make_ray(from, through * static_cast<double>(focaldistance) - from, time);
     }
 
+    std::optional<Projection> projection() const override {
+        if (lensradius > 0) return std::nullopt;
+        return projection_of(half_size_, true);
+    }
+
   private:
     double half_size_ = 1; ///< half of the shorter side of the window at z = 1
 };

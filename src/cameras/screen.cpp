@@ -47,4 +47,16 @@ CameraRay FlatCamera::make_ray(Vec3d origin, Vec3d direction, float time) const 
     return {{Vec3(world_from_camera_.point(origin)), Vec3(normalize(d)), infinity, time}, 1};
 }
 
+// The inverse of screen(), over the distance to the window's plane: w times it, to be divided by w later.
+Projection FlatCamera::projection_of(double half_size, bool is_perspective) const {
+    const double across = 1 / (half_size * step_.x), down = 1 / (half_size * step_.y);
+    const double left = -corner_.x / step_.x, top = -corner_.y / step_.y;
+    Matrix4 film_from_camera;
+    if (is_perspective)
+        film_from_camera.m = {{{across, 0, left, 0}, {0, down, top, 0}, {0, 0, 1, 0}, {0, 0, 1, 0}}};
+    else
+        film_from_camera.m = {{{across, 0, 0, left}, {0, down, 0, top}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+    return {film_from_camera * world_from_camera_.inverse_matrix(), is_perspective};
+}
+
 } // namespace alhazen

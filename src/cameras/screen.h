@@ -48,6 +48,8 @@ struct FlatCamera : Camera {
         return {corner_.x + static_cast<double>(film.x) * step_.x,
                 corner_.y + static_cast<double>(film.y) * step_.y};
     }
+    /// The map of a camera without lens whose window is scaled by half_size, in camera space.
+    Projection projection_of(double half_size, bool is_perspective) const;
     float ray_time(float u) const { return lerp(u, shutteropen, shutterclose); }
     CameraRay make_ray(Vec3d origin, Vec3d direction, float time) const;
 

@@ -7,19 +7,6 @@ namespace alhazen {
 
 namespace {
 
-/// The ray in the instance's space. Its origin is moved forward, to the edge of the rounding error of
-/// transforming it, so that it does not meet the surface it was moved off in world space; shift is by how
-/// much of t.
-Ray ray_into(const PlacedObject& instance, const Ray& ray, float& shift) {
-    Ray local = instance.object_from_world.ray(ray);
-    Vec3 error = instance.object_from_world.point_error(ray.o, Vec3{});
-    float len2 = length_squared(local.d);
-    shift = len2 > 0 ? dot(abs(local.d), error) / len2 : 0;
-    local.o += local.d * shift;
-    local.tmax -= shift;
-    return local;
-}
-
 // The hit seen from outside the instance.
 void transform_hit(const Transform& t, Hit& hit) {
     hit.p_error = t.point_error(hit.p, hit.p_error);
@@ -33,19 +20,30 @@ void transform_hit(const Transform& t, Hit& hit) {
 
 } // namespace
 
+Ray ray_into(const PlacedObject& instance, const Ray& ray, float& shift) {
+    Ray local = instance.object_from_world.ray(ray);
+    Vec3 error = instance.object_from_world.point_error(ray.o, Vec3{});
+    float len2 = length_squared(local.d);
+    shift = len2 > 0 ? dot(abs(local.d), error) / len2 : 0;
+    local.o += local.d * shift;
+    local.tmax -= shift;
+    return local;
+}
+
 Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instances, const AccelChoice& accel)
     : shapes_(std::move(shapes)), instances_(std::move(instances)) {
     for (const PlacedObject& instance : instances_)
         height_ = std::max(height_, instance.object->height() + 1);
-    for (const PlacedShape& placed : shapes_) {
+    for (std::uint32_t s = 0; s < shapes_.size(); ++s) {
+        const PlacedShape& placed = shapes_[s];
         const FloatTexture& alpha = placed.shape->alpha;
-        leaves_.push_back(
-            {placed.shape.get(), placed.shape->triangles(), alpha.is_constant() && alpha.constant() >= 1,
-             placed.material && placed.material->is_interface(),
-             !placed.material || placed.material->needs_parameters() || !placed.lights.empty()});
-    }
-    for (std::uint32_t s = 0; s < shapes_.size(); ++s)
+        leaves_.push_back({placed.shape.get(), placed.shape->triangles(),
+                           alpha.is_constant() && alpha.constant() >= 1,
+                           placed.material && placed.material->is_interface(),
+                           !placed.material || placed.material->needs_parameters() || !placed.lights.empty(),
+                           static_cast<std::uint32_t>(primitives_.size())});
         for (std::uint32_t i = 0; i < shapes_[s].shape->primitive_count(); ++i) primitives_.push_back({s, i});
+    }
     for (std::uint32_t i = 0; i < instances_.size(); ++i) primitives_.push_back({instance_mark, i});
     is_apart_.assign(shapes_.size(), false);
     // A structure that somebody chose gets everything.

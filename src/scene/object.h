@@ -41,6 +41,11 @@ struct Found {
     Ray ray; ///< in the object's space
 };
 
+/// The ray in the instance's space. Its origin is moved forward, to the edge of the rounding error of
+/// transforming it, so that it does not meet the surface it was moved off in world space; shift is by how
+/// much of t.
+Ray ray_into(const PlacedObject& instance, const Ray& ray, float& shift);
+
 class Object final : public Primitives {
   public:
     /// Shapes may be empty; instances refer to finished objects, which must outlive this one.
@@ -60,6 +65,25 @@ class Object final : public Primitives {
     bool count(Query query, const Ray& ray, WalkCounts& counts) const;
     /// The full hit, in world space.
     static Hit surface(const Found& found);
+
+    /// The number that a shape's primitive has in Found.
+    std::uint32_t number_of(std::uint32_t shape, std::uint32_t primitive) const {
+        return leaves_[shape].first + primitive;
+    }
+    /// The shape and the primitive of that which have a number in Found; no instance has one.
+    struct Member {
+        std::uint32_t shape, primitive;
+    };
+    Member member(std::uint32_t number) const {
+        return {primitives_[number].shape, primitives_[number].primitive};
+    }
+    /// Whether the shape is there at all of its points.
+    bool is_solid(std::uint32_t shape) const { return leaves_[shape].is_solid; }
+    /// Whether it is there where a ray (in the object's space) meets one of its primitives.
+    bool is_there(const Ray& ray, std::uint32_t shape, std::uint32_t primitive,
+                  const Intersection& hit) const {
+        return is_solid(shape) || alpha_passes(ray, {shape, primitive}, hit);
+    }
 
     /// Around all that can be hit, not padded as the structure's own are.
     const Bounds3& bounds() const { return bounds_; }
@@ -94,6 +118,7 @@ class Object final : public Primitives {
         const TriangleMesh* mesh; ///< when the primitives are triangles
         bool is_solid, is_interface;
         bool needs_parameters; ///< whether anybody looks at a hit's uv or tangents
+        std::uint32_t first;   ///< number of its first primitive
 
         PrimitiveKind kind() const {
             if (!mesh) return PrimitiveKind::custom;

@@ -24,6 +24,12 @@ struct TriangleMesh : Shape {
                 P[static_cast<std::size_t>(i[2])]};
     }
 
+    const int* corner_indices(std::uint32_t triangle) const {
+        return indices.data() + std::size_t{3} * triangle;
+    }
+    /// Whether normals point against the order of the corners, where there are no vertex normals.
+    bool is_turned() const { return is_turned_; }
+
     std::uint32_t primitive_count() const final { return static_cast<std::uint32_t>(indices.size() / 3); }
     Bounds3 bounds(std::uint32_t triangle) const final;
     bool intersect(const Ray& ray, std::uint32_t triangle, Intersection& hit) const final {
@@ -53,9 +59,6 @@ struct TriangleMesh : Shape {
     void prepare(const Place& place, const std::string& prefix, BuildContext& context);
 
   private:
-    const int* corner_indices(std::uint32_t triangle) const {
-        return indices.data() + std::size_t{3} * triangle;
-    }
     std::array<Vec2, 3> corner_uv(std::uint32_t triangle) const;
     // Unit, by the order of the corners, turned over where the mesh is.
     Vec3d face_normal(std::uint32_t triangle) const;
