@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/big_array.h"
+#include "base/threads.h"
 #include "color/color_space.h"
 #include "color/sensor.h"
 #include "film/film.h"
@@ -102,7 +104,7 @@ class RgbFilm final : public Film {
     const RgbColorSpace* space_ = &srgb_space();
     Matrix3 output_from_sensor_;
     float limit_ = infinity;
-    std::vector<Sums> sums_;
+    BigArray<Sums> sums_;
 };
 
 void RgbFilm::describe(Fields<RgbFilm>& f) {
@@ -231,7 +233,12 @@ void RgbFilm::set_pixels(Rect2i pixels) {
 void RgbFilm::start(ColorMode mode) {
     check_image_size(pixels_.width(), pixels_.height(), 3);
     output_from_sensor_ = sensor_.output_from_sensor(*space_, mode);
-    sums_.assign(static_cast<std::size_t>(pixels_.width()) * static_cast<std::size_t>(pixels_.height()), {});
+    const std::size_t count =
+        static_cast<std::size_t>(pixels_.width()) * static_cast<std::size_t>(pixels_.height());
+    if (sums_.size() != count) sums_ = BigArray<Sums>(count);
+    parallel_ranges(count, 16384, [this](std::size_t begin, std::size_t end) {
+        std::fill(sums_.data() + begin, sums_.data() + end, Sums{});
+    });
 }
 
 Image RgbFilm::image() const {

@@ -1,8 +1,11 @@
-/// Integrators: the light that arrives along a camera ray.
+/// Integrators: the light that arrives along a camera ray, or at a whole picture.
 #pragma once
+
+#include <memory>
 
 #include "describe/kind.h"
 #include "integrators/path_context.h"
+#include "integrators/picture.h"
 #include "integrators/task.h"
 
 namespace alhazen {
@@ -13,6 +16,16 @@ struct Integrator {
 
     /// The radiance arriving against the ray (one sample of it), in path's wavelengths or RGB.
     virtual Task<Spectrum> radiance(Ray ray, PathContext& path) const = 0;
+
+    /// Called once when the scene is there, before anything is rendered.
+    virtual void prepare(const Scene& /*scene*/) {}
+    /// For integrators that make pictures as a whole: the work on this one. nullptr: the picture is made of
+    /// radiance().
+    virtual std::unique_ptr<PictureWork> whole_picture(const Picture& /*picture*/) const { return nullptr; }
+    /// Samples a pixel, given what the sampler says and what the user has asked for, if anything.
+    virtual int samples_per_pixel(int sampler, std::optional<int> asked) const {
+        return asked.value_or(sampler);
+    }
 
     /// True for models that are defined in linear RGB.
     virtual bool works_in_rgb() const { return false; }

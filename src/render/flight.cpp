@@ -91,7 +91,7 @@ bool Flight::start_next(Path& path) {
         else
             stream.skip(2);
         auto camera_ray = world_.camera->ray(at);
-        path.context.emplace(*world_.scene, stream, lambda, path.arena, rays,
+        path.context.emplace(*world_.scene, stream, lambda, path.arena, counts.rays,
                              paths_.size() > 1 ? &queue_ : nullptr, path.number);
         if (camera_ray) {
             path.camera_weight = camera_ray->weight;
@@ -137,8 +137,7 @@ void Flight::add_finished() {
             world_.film->add(r.pixel, r.radiance, r.lambda, r.weight);
             continue;
         }
-        ++bad_samples;
-        if (bad.size() < 1000) bad.push_back({r.pixel, r.sample});
+        counts.add_bad(r.pixel, r.sample);
     }
 }
 

@@ -9,12 +9,6 @@
 
 namespace alhazen {
 
-/// A sample that was dropped because it was not a finite number.
-struct BadSample {
-    Vec2i pixel;
-    int sample = 0;
-};
-
 /// How many paths to follow at a time in a scene, when nobody says: many, to hide the latency of memory, or
 /// one, where the structures fit a core's own cache and there is none to hide.
 int default_paths_in_flight(const Scene& scene);
@@ -36,9 +30,7 @@ class Flight {
     /// Takes the samples and adds them to the film, each pixel's in their order.
     void run(const Work& work);
 
-    RayCounts rays;                ///< traced so far
-    std::uint64_t bad_samples = 0; ///< dropped so far
-    std::vector<BadSample> bad;    ///< of these, up to 1000
+    PictureCounts counts; ///< so far
 
   private:
     struct Path;

@@ -32,18 +32,37 @@ class Renderer {
 
     RenderStats run() {
         world_.film->start(world_.mode);
+        Picture picture{*world_.scene, *world_.camera, *world_.film, world_.mode, world_.spp, world_.seed};
+        if (auto whole = world_.integrator->whole_picture(picture))
+            run_whole(*whole);
+        else
+            run_samples();
+        return stats();
+    }
+
+  private:
+    bool is_cancelled() const { return watch_.cancel && watch_.cancel->load(); }
+
+    void run_whole(PictureWork& work) {
+        const int passes = work.passes();
+        for (int pass = 0; pass < passes && (pass == 0 || !is_cancelled()); ++pass) {
+            whole_ += work.run(pass, [&](double fraction) { report((pass + fraction) / passes, false); });
+            done_ = static_cast<int>(std::int64_t{world_.spp} * (pass + 1) / passes);
+            report((pass + 1.0) / passes, true);
+        }
+    }
+
+    void run_samples() {
         while (done_ < world_.spp) {
             auto pass_start = Clock::now();
             run_pass();
             done_ += pass_;
             last_pass_ = seconds_since(pass_start);
-            report(0, true);
-            if (watch_.cancel && watch_.cancel->load()) break;
+            report(static_cast<double>(done_) / world_.spp, true);
+            if (is_cancelled()) break;
         }
-        return stats();
     }
 
-  private:
     void run_pass() {
         pass_ = next_pass_size();
         tiles_done_ = 0;
@@ -51,7 +70,9 @@ class Renderer {
         parallel_for(count, 1, [&](std::size_t i) {
             render_tile(static_cast<int>(i % static_cast<std::size_t>(tiles_x_)),
                         static_cast<int>(i / static_cast<std::size_t>(tiles_x_)));
-            report(++tiles_done_, false);
+            report((done_ + static_cast<double>(++tiles_done_) / static_cast<double>(count) * pass_) /
+                       world_.spp,
+                   false);
         });
     }
 
@@ -71,7 +92,8 @@ class Renderer {
         flights_.local().run({{lo, hi}, done_, done_ + pass_});
     }
 
-    void report(std::size_t tiles, bool pass_is_finished) {
+    // fraction: of all the work.
+    void report(double fraction, bool pass_is_finished) {
         if (!watch_.progress) return;
         std::unique_lock lock(report_mutex_, std::try_to_lock);
         if (!lock && !pass_is_finished) return; // someone else is at it
@@ -79,14 +101,12 @@ class Renderer {
         Progress p;
         p.samples_done = done_;
         p.samples_total = world_.spp;
-        double all_tiles = static_cast<double>(tiles_x_) * tiles_y_;
-        double in_pass = pass_is_finished ? 0 : static_cast<double>(tiles) / all_tiles * pass_;
-        p.fraction = (done_ + in_pass) / world_.spp;
+        p.fraction = fraction;
         p.seconds = seconds_since(start_);
         p.seconds_left = p.fraction > 0 ? p.seconds * (1 - p.fraction) / p.fraction : 0;
         if (pass_is_finished) {
-            std::uint64_t rays = 0;
-            for (const Flight& w : flights_) rays += w.rays.total();
+            std::uint64_t rays = whole_.rays.total();
+            for (const Flight& w : flights_) rays += w.counts.rays.total();
             rays_per_second_ = p.seconds > 0 ? static_cast<double>(rays) / p.seconds : 0;
         }
         p.rays_per_second = rays_per_second_;
@@ -98,11 +118,13 @@ class Renderer {
         s.seconds = seconds_since(start_);
         s.samples = done_;
         s.cancelled = done_ < world_.spp;
-        for (const Flight& w : flights_) {
-            s.rays += w.rays;
-            s.bad_samples += w.bad_samples;
-            s.first_bad_samples.insert(s.first_bad_samples.end(), w.bad.begin(), w.bad.end());
-        }
+        auto add = [&s](const PictureCounts& counts) {
+            s.rays += counts.rays;
+            s.bad_samples += counts.bad_samples;
+            s.first_bad_samples.insert(s.first_bad_samples.end(), counts.bad.begin(), counts.bad.end());
+        };
+        add(whole_);
+        for (const Flight& w : flights_) add(w.counts);
         std::sort(s.first_bad_samples.begin(), s.first_bad_samples.end(),
                   [](const BadSample& a, const BadSample& b) {
                       return std::tie(a.pixel.y, a.pixel.x, a.sample) <
@@ -119,6 +141,7 @@ class Renderer {
     int done_ = 0, pass_ = 0;
     double last_pass_ = 0, rays_per_second_ = 0;
     std::atomic<std::size_t> tiles_done_{0};
+    PictureCounts whole_; // of work that is not done by flights
     std::mutex report_mutex_;
     tbb::enumerable_thread_specific<Flight> flights_; // one a thread
     Clock::time_point start_ = Clock::now();

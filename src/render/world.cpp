@@ -153,10 +153,15 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     world->filter = filter_kinds().make(with_default(description.filter, "gaussian"), context, "gaussian");
     world->sampler = sampler_kinds().make(with_default(description.sampler, "zsobol"), context, "zsobol");
     if (world->sampler) {
-        int spp = settings.spp.value_or(world->sampler->samples_per_pixel());
-        world->sampler->prepare(context.film_resolution, spp, find_seed(description, settings));
+        auto samples = [&] {
+            const int own = world->sampler->samples_per_pixel();
+            return world->integrator ? world->integrator->samples_per_pixel(own, settings.spp)
+                                     : settings.spp.value_or(own);
+        };
+        world->seed = find_seed(description, settings);
+        world->sampler->prepare(context.film_resolution, samples(), world->seed);
         // Sequences may come in powers of two, but the picture gets the number of samples that was asked for.
-        world->spp = settings.spp.value_or(world->sampler->samples_per_pixel());
+        world->spp = samples();
     }
 
     Node fallback;
@@ -173,6 +178,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     world->textures.forget_images();
     messages.throw_if_errors();
     world->scene->set_light_chooser(world->integrator->light_sampler());
+    world->integrator->prepare(*world->scene);
     return world;
 }
 

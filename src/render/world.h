@@ -28,6 +28,7 @@ struct World {
     std::unique_ptr<Sampler> sampler;
     std::unique_ptr<Integrator> integrator;
     int spp = 1;
+    std::uint64_t seed = 0;
 };
 
 /// Builds the world; throws SceneError with every error found. Warnings stay in messages.
