@@ -54,6 +54,12 @@ struct WhittedTerms {
     float eta = 1;        ///< index inside over the index outside
 };
 
+/// Two formulas for the highlights of textbook surfaces.
+enum class Highlight {
+    phong, ///< (R.V)^n, R the mirrored direction of the light (Phong 1975)
+    blinn, ///< (N.H)^(4 n), H halfway between light and eye (Blinn 1977); the factor 4 makes it about as wide
+};
+
 /// A BSDF at a point. Directions are unit length, point away from the surface, and live in the local frame
 /// (shading normal = +z). Made in an Arena by a Material: must be trivially destructible.
 struct Bsdf {
@@ -69,8 +75,15 @@ struct Bsdf {
     virtual void regularize() {}
 
     virtual WhittedTerms whitted(Vec3 /*wo*/) const { return {}; }
-    /// The Whitted integrator's response to a light in direction wi: eval().f, or Phong's empirical formula.
-    virtual Spectrum local(Vec3 wo, Vec3 wi) const { return eval(wo, wi).f; }
+    /// The response of local illumination to a light in direction wi: eval().f, or Phong's empirical formula.
+    virtual Spectrum local(Vec3 wo, Vec3 wi, Highlight /*highlight*/ = Highlight::phong) const {
+        return eval(wo, wi).f;
+    }
+
+    /// Of surfaces that do nothing but scatter evenly to the side that light comes from: their BSDF, so that
+    /// eval().f is that times |cos(wi)| where both directions are on one side. Local light of many points is
+    /// then summed without a call a point.
+    virtual std::optional<Spectrum> matte() const { return std::nullopt; }
 
   protected:
     ~Bsdf() = default;

@@ -28,6 +28,7 @@ struct DiffuseBsdf final : Bsdf {
         return reflectance.is_black() ? Lobes::none : Lobes::reflection | Lobes::diffuse;
     }
     WhittedTerms whitted(Vec3) const override { return {.ambient = reflectance}; }
+    std::optional<Spectrum> matte() const override { return reflectance * inv_pi; }
 };
 
 struct Diffuse final : Material {
@@ -45,6 +46,7 @@ struct Diffuse final : Material {
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
         return arena.make<DiffuseBsdf>(clamp(reflectance.eval(TexturePoint(hit), lambda), 0, 1));
     }
+    bool is_uniform() const override { return reflectance.is_constant(); }
 };
 
 } // namespace

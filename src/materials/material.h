@@ -22,6 +22,8 @@ struct Material {
     virtual bool needs_parameters() const { return true; }
     /// True when at() always returns nullptr.
     virtual bool is_interface() const { return false; }
+    /// True when at() returns the same BSDF for every hit in RGB mode.
+    virtual bool is_uniform() const { return false; }
     /// The material in effect at the hit: itself, or one of those it mixes.
     virtual const Material* choose(const Hit&) const { return this; }
 };

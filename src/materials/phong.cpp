@@ -92,12 +92,17 @@ class PhongBsdf final : public Bsdf {
 
     /// kd max(0, L.N) + ks max(0, R.V)^n, L = wi, V = wo, R = L mirrored about N; no highlight where L.N <=
     /// 0.
-    Spectrum local(Vec3 wo, Vec3 wi) const override {
+    Spectrum local(Vec3 wo, Vec3 wi, Highlight highlight) const override {
         float l_dot_n = wo.z < 0 ? -wi.z : wi.z;
         if (l_dot_n <= 0) return 0;
-        float r_dot_v = dot(mirrored(wi), wo);
         Spectrum matte = values_.diffuse * l_dot_n;
-        if (r_dot_v <= 0 || values_.specular.is_black()) return matte;
+        if (values_.specular.is_black()) return matte;
+        if (highlight == Highlight::blinn) {
+            float n_dot_h = std::abs(normalize(wo + wi).z);
+            return matte + values_.specular * power_lobe(n_dot_h, 4 * values_.shininess);
+        }
+        float r_dot_v = dot(mirrored(wi), wo);
+        if (r_dot_v <= 0) return matte;
         return matte + values_.specular * power_lobe(r_dot_v, values_.shininess);
     }
 
@@ -191,6 +196,8 @@ struct Phong final : Material {
         if (everywhere_ && lambda.mode == ColorMode::rgb) return arena.make<PhongBsdf>(*everywhere_);
         return arena.make<PhongBsdf>(values(TexturePoint(hit), lambda));
     }
+
+    bool is_uniform() const override { return everywhere_.has_value(); }
 
   private:
     bool is_constant() const {

@@ -1,0 +1,22 @@
+/// The coverage kernel for x86-64 with AVX2.
+#include <cstddef>
+
+#include "raster/kernel.h"
+
+#if defined(__AVX2__)
+
+#include "raster/kernel_text.h"
+
+const alhazen::RasterKernel* alhazen::raster_kernel_avx2() {
+    static constexpr RasterKernel kernel{
+        "avx2", [] { return static_cast<bool>(__builtin_cpu_supports("avx2")); }, &draw_batch};
+    return &kernel;
+}
+
+#else
+
+const alhazen::RasterKernel* alhazen::raster_kernel_avx2() {
+    return nullptr;
+}
+
+#endif

@@ -1,0 +1,11 @@
+/// The coverage kernel for any processor.
+#include <cstddef>
+
+#include "raster/kernel.h"
+
+#include "raster/kernel_text.h"
+
+const alhazen::RasterKernel* alhazen::raster_kernel_plain() {
+    static constexpr RasterKernel kernel{"plain", [] { return true; }, &draw_batch};
+    return &kernel;
+}

@@ -1,0 +1,31 @@
+/// From what is seen in a tile to its colours: each surface in a pixel is shaded once, after all is drawn.
+#pragma once
+
+#include <functional>
+
+#include "raster/film_rays.h"
+#include "raster/rasterizer.h"
+#include "raster/shading.h"
+
+namespace alhazen {
+
+class TileShading {
+  public:
+    /// camera has a projection. What is given must outlive this.
+    TileShading(const Camera& camera, const LocalLights& lights, const LocalShading& shading)
+        : camera_(camera), rays_(*camera.projection()), lights_(lights), shading_(shading) {}
+
+    /// Takes the light of a pixel, or of so many of its samples.
+    using Take = std::function<void(Vec2i pixel, Spectrum L, int samples)>;
+    void shade(const DrawnTile& tile, const Take& take) const;
+
+  private:
+    class Shader;
+
+    const Camera& camera_;
+    FilmRays rays_;
+    const LocalLights& lights_;
+    const LocalShading& shading_;
+};
+
+} // namespace alhazen
