@@ -188,8 +188,9 @@ void add_bay(Mesh& mesh, float x, float z) {
     mesh.box({x, 6.4f, z - 0.05f}, {x + 2.45f, 6.5f, z + 0.05f});
 }
 
-/// A nave between columns: long thin boxes, large walls, much that is hidden. Statues: bumpy balls of many triangles.
-SceneDescription hall(bool statues) {
+/// A nave between columns: long thin boxes, large walls, much that is hidden. Statues: bumpy balls of as many rings, or
+/// none.
+SceneDescription hall(int statue_rings) {
     Mesh mesh;
     mesh.box({-15, -0.2f, -4}, {15, 0, 4});
     for (float z : {-4.2f, 4.0f}) mesh.box({-15, 0, z}, {15, 12, z + 0.2f});
@@ -200,8 +201,8 @@ SceneDescription hall(bool statues) {
         float x = -14 + 0.47f * static_cast<float>(k);
         mesh.box({x, 11, -4}, {x + 0.1f, 11.2f, 4}, 0.3f);
     }
-    for (int k = 0; statues && k < 8; ++k)
-        for (float z : {-1.1f, 1.1f}) mesh.ball({-12 + 3 * static_cast<float>(k), 1.3f, z}, 0.7f, 170, 0.2f);
+    for (int k = 0; statue_rings > 0 && k < 8; ++k)
+        for (float z : {-1.1f, 1.1f}) mesh.ball({-12 + 3 * static_cast<float>(k), 1.3f, z}, 0.7f, statue_rings, 0.2f);
     return scene_of(std::move(mesh), {{-13, 3, 0.5f}, {10, 4, -0.5f}, 60, {2, 10.5f, 1}, 1});
 }
 
@@ -237,11 +238,12 @@ SceneDescription stadium() {
 std::vector<GeneratedScene> generated_scenes() {
     return {
         {"ball", "a bumpy ball of a thousand triangles", false, [] { return ball(); }},
-        {"hall", "a hall of columns and railings", true, [] { return hall(false); }},
+        {"hall", "a hall of columns and railings", true, [] { return hall(0); }},
         {"stadium", "two small balls in a huge stadium", true, [] { return stadium(); }},
         {"terrain-1m", "a terrain of a million triangles", true, [] { return terrain(708); }},
         {"hair", "1.9 million slivers", true, [] { return hair(8000, 40); }},
-        {"museum", "the hall with statues", false, [] { return hall(true); }},
+        {"museum", "the hall with statues", false, [] { return hall(170); }},
+        {"gallery", "the hall with statues, half a million triangles", false, [] { return hall(75); }},
         {"terrain-10m", "a terrain of ten million triangles", false, [] { return terrain(2237); }},
     };
 }

@@ -43,7 +43,8 @@ TEST_P(Docs, EveryCommandWorks) {
 INSTANTIATE_TEST_SUITE_P(Pages, Docs,
                          ::testing::Values("README.md", "docs/tour.md", "docs/architecture.md",
                                            "docs/contributing.md", "docs/dependencies.md",
-                                           "docs/scene-language.md", "docs/performance.md"),
+                                           "docs/scene-language.md", "docs/performance.md",
+                                           "docs/rasterisation.md"),
                          [](const auto& test) {
                              std::string name = std::filesystem::path(test.param).stem().string();
                              std::replace(name.begin(), name.end(), '-', '_');
