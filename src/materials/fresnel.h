@@ -2,7 +2,6 @@
 /// the index below the surface (z < 0) over the index above.
 #pragma once
 
-#include <complex>
 #include <optional>
 
 #include "base/vec.h"
@@ -52,22 +51,33 @@ inline float fresnel_dielectric(float cos_i, float eta) {
     return (sqr(parallel) + sqr(perpendicular)) / 2;
 }
 
-/// The same for a conductor with index eta - i k; 0 <= cos_i <= 1.
-inline float fresnel_conductor(float cos_i, float eta, float k) {
-    using Complex = std::complex<float>;
-    cos_i = std::clamp(cos_i, 0.0f, 1.0f);
-    Complex index(eta, k);
-    // An index of 0 bends light along the border and keeps none of it.
-    if (index == Complex(0)) return 1;
-    Complex sin_t2 = (1 - sqr(cos_i)) / (index * index);
-    Complex cos_t = std::sqrt(1.0f - sin_t2);
-    Complex parallel = (index * cos_i - cos_t) / (index * cos_i + cos_t);
-    Complex perpendicular = (cos_i - index * cos_t) / (cos_i + index * cos_t);
-    return (std::norm(parallel) + std::norm(perpendicular)) / 2;
-}
+/// The same for a conductor with index eta - i k; 0 <= cos_i <= 1, eta and k not negative. The cosine beyond
+/// the border is complex; written out by real and imaginary part (Born and Wolf 1999, section 14.2), it
+/// needs real numbers only.
 inline Spectrum fresnel_conductor(float cos_i, Spectrum eta, Spectrum k) {
-    auto lane = [&](int i) { return fresnel_conductor(cos_i, eta[i], k[i]); };
-    return {lane(0), lane(1), lane(2), lane(3)};
+    using Lanes = Spectrum::Lanes;
+    cos_i = std::clamp(cos_i, 0.0f, 1.0f);
+    const float cos2 = sqr(cos_i), sin2 = 1 - cos2;
+    // Anything above reflects all to the last bit, and its fourth power overflows.
+    constexpr float largest_index = 1e9f;
+    const Lanes n = clamp(eta, 0, largest_index).lanes, m = clamp(k, 0, largest_index).lanes;
+    // index^2 - sin^2 = (a + i b)^2: of a^2 and b^2 the larger is a sum, the smaller follows from a b = n k.
+    const Lanes real = n * n - m * m - sin2, n2k2 = (n * n) * (m * m);
+    const Lanes a2_plus_b2 = sqrt(Spectrum(real * real + 4 * n2k2)).lanes;
+    const Lanes larger = 0.5f * (a2_plus_b2 + (real < 0 ? -real : real));
+    const Lanes smaller = larger > 0 ? n2k2 / larger : larger;
+    const Lanes two_a_cos = 2 * cos_i * sqrt(Spectrum(real < 0 ? smaller : larger)).lanes;
+    // Where a denominator vanishes, light runs along the border.
+    auto ratio = [](Lanes sum, Lanes term) {
+        const Lanes below = sum + term;
+        return below > 0 ? (sum - term) / below : Lanes{1, 1, 1, 1};
+    };
+    const Lanes perpendicular = ratio(a2_plus_b2 + cos2, two_a_cos);
+    const Lanes parallel = perpendicular * ratio(cos2 * a2_plus_b2 + sin2 * sin2, two_a_cos * sin2);
+    return Spectrum(0.5f * (perpendicular + parallel));
+}
+inline float fresnel_conductor(float cos_i, float eta, float k) {
+    return fresnel_conductor(cos_i, Spectrum(eta), Spectrum(k))[0];
 }
 
 } // namespace alhazen

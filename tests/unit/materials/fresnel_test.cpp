@@ -1,4 +1,6 @@
 /// Fresnel, Snell and microfacets against numbers worked out by hand.
+#include <complex>
+
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
@@ -66,6 +68,38 @@ TEST(Fresnel, ConductorAtNormalIncidence) {
 TEST(Fresnel, ConductorWithoutAbsorptionIsDielectric) {
     for (float cos_i : {0.05f, 0.3f, 0.7f, 1.0f})
         EXPECT_NEAR(fresnel_conductor(cos_i, 1.7f, 0), fresnel_dielectric(cos_i, 1.7f), 1e-5f);
+}
+
+// Fresnel's equations as they are written with complex numbers.
+double complex_fresnel(double cos_i, double eta, double k) {
+    const std::complex<double> index(eta, k);
+    const auto cos_t = std::sqrt(1.0 - (1 - cos_i * cos_i) / (index * index));
+    const auto parallel = (index * cos_i - cos_t) / (index * cos_i + cos_t);
+    const auto perpendicular = (cos_i - index * cos_t) / (cos_i + index * cos_t);
+    return (std::norm(parallel) + std::norm(perpendicular)) / 2;
+}
+
+TEST(Fresnel, ConductorAgreesWithComplexNumbers) {
+    Rng rng(3);
+    for (int i = 0; i < 20000; ++i) {
+        const float cos_i = i % 10 == 0 ? 1e-3f * rng.uniform() : rng.uniform();
+        auto index = [&] { return std::pow(10.0f, 5 * rng.uniform() - 2); };
+        const Spectrum eta(index(), index(), index(), index()), k(index(), index(), index(), index());
+        const Spectrum reflected = fresnel_conductor(cos_i, eta, k);
+        for (int lane = 0; lane < 4; ++lane)
+            ASSERT_NEAR(reflected[lane], complex_fresnel(cos_i, eta[lane], k[lane]), 2e-6)
+                << cos_i << ' ' << eta[lane] << ' ' << k[lane];
+    }
+}
+
+TEST(Fresnel, ConductorsStayBetweenZeroAndOne) {
+    const float indices[] = {0, 1e-30f, 1e-6f, 0.5f, 1, 2, 1e6f, 1e30f, infinity};
+    for (float cos_i : {0.0f, 1e-20f, 0.3f, 1.0f})
+        for (float eta : indices)
+            for (float k : indices) {
+                const float reflected = fresnel_conductor(cos_i, eta, k);
+                EXPECT_TRUE(reflected >= 0 && reflected <= 1) << cos_i << ' ' << eta << ' ' << k;
+            }
 }
 
 // Every facet's area, seen from above, adds up to the flat surface's.
