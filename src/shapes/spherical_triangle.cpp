@@ -2,40 +2,36 @@
 
 namespace alhazen {
 
-namespace {
-
-constexpr double pi_double = 3.14159265358979323846;
-
-// The part of v across the unit vector n, at unit length.
-Vec3d across(Vec3d v, Vec3d n) {
-    return normalize(v - n * dot(v, n));
+SphericalTriangle::SphericalTriangle(Vec3 pa, Vec3 pb, Vec3 pc, Vec3 eye) {
+    const Vec3 a = pa - eye, b = pb - eye, c = pc - eye;
+    inverse_distance_ = {1 / length(a), 1 / length(b), 1 / length(c)};
+    const Vec3 inverse = inverse_distance_;
+    ab_ = dot(a, b) * (inverse.x * inverse.y);
+    bc_ = dot(b, c) * (inverse.y * inverse.z);
+    ca_ = dot(c, a) * (inverse.z * inverse.x);
+    // From the sides, which are exact where the corners seem close together.
+    volume_ = std::abs(dot(a, cross(pb - pa, pc - pa))) * inverse.x * inverse.y * inverse.z;
+    solid_angle_ = 2 * std::atan2(volume_, 1 + ab_ + bc_ + ca_);
 }
 
-double angle_between(Vec3d u, Vec3d v) {
-    return std::atan2(length(cross(u, v)), dot(u, v));
-}
-
-} // namespace
-
-Vec3d SphericalTriangle::sample(Vec2d u) const {
-    // The inner angles; their sum exceeds pi by the area (Girard).
-    double alpha = angle_between(across(b, a), across(c, a));
-    double beta = angle_between(across(a, b), across(c, b));
-    double gamma = angle_between(across(a, c), across(b, c));
-    double area = alpha + beta + gamma - pi_double;
-
-    // The triangle a b c' of area u.x * area has the angle alpha at a; find c' on the side from a to c.
-    double part = u.x * area;
-    double s = std::sin(part - alpha), t = std::cos(part - alpha);
-    double p = t - std::cos(alpha), q = s + std::sin(alpha) * dot(a, b);
-    double below = (q * s + p * t) * std::sin(alpha);
-    double cos_side = below != 0 ? ((q * t - p * s) * std::cos(alpha) - q) / below : 1;
-    cos_side = std::clamp(cos_side, -1.0, 1.0);
-    Vec3d c2 = a * cos_side + across(c, a) * std::sqrt(1 - cos_side * cos_side);
-
-    // A place on the arc from b to c': equal steps of the cosine are equal areas.
-    double h = u.y * (1 - dot(c2, b));
-    return normalize(b * (1 - h) + across(c2, b) * std::sqrt(std::max(0.0, h * (2 - h))));
+Vec2 SphericalTriangle::sample(Vec2 u) const {
+    // The end of the arc from b, d, is a mirrored at h = g a + k c, where
+    // tan(area of (a, b, d) / 2) = det(a, b, h) / dot(a + b, h).
+    const float half = 0.5f * solid_angle_ * u.x;
+    const float s = std::sin(half), t = std::cos(half);
+    const float g = volume_ * t - (ca_ + bc_) * s, k = (1 + ab_) * s;
+    const float mirror = 2 * (g + k * ca_) / (g * g + k * k + 2 * g * k * ca_);
+    const float d_a = mirror * g - 1, d_c = mirror * k;
+    // Equal steps of the cosine along the arc are equal areas.
+    const float bd = d_a * ab_ + d_c * bc_;
+    const float cosine = 1 + (bd - 1) * u.y;
+    const float w_d = safe_sqrt(u.y * (1 + cosine) / (1 + bd)), w_b = cosine - w_d * bd;
+    // The direction is now a sum of directions to the corners; its multiple in their plane is wanted.
+    const float a = std::max(0.0f, w_d * d_a) * inverse_distance_.x;
+    const float b = std::max(0.0f, w_b) * inverse_distance_.y;
+    const float c = std::max(0.0f, w_d * d_c) * inverse_distance_.z;
+    const float scale = 1 / (a + b + c);
+    return {std::min(b * scale, 1.0f), std::min(c * scale, 1 - std::min(b * scale, 1.0f))};
 }
 
 } // namespace alhazen

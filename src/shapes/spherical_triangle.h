@@ -5,21 +5,25 @@
 
 namespace alhazen {
 
-/// The triangle whose corners lie in the unit directions a, b and c.
-struct SphericalTriangle {
-    Vec3d a, b, c;
+/// The triangle with the given corners, seen from the eye.
+class SphericalTriangle {
+  public:
+    SphericalTriangle(Vec3 pa, Vec3 pb, Vec3 pc, Vec3 eye);
 
-    SphericalTriangle(Vec3d pa, Vec3d pb, Vec3d pc, Vec3d eye)
-        : a(normalize(pa - eye)), b(normalize(pb - eye)), c(normalize(pc - eye)) {}
+    /// Steradians (Van Oosterom and Strackee 1983). NaN when the eye is on a corner.
+    float solid_angle() const { return solid_angle_; }
+    /// A point that is uniform over the solid angle, as weights of the second and the third corner, neither
+    /// negative, their sum at most 1. u.x cuts off that fraction of the area by an arc through the second
+    /// corner, u.y chooses a place along that arc (Arvo 1995, "Stratified Sampling of Spherical Triangles";
+    /// the arc's end as Peters 2021, "BRDF Importance Sampling for Polygonal Lights", section 3). The solid
+    /// angle must not be 0.
+    Vec2 sample(Vec2 u) const;
 
-    /// Van Oosterom and Strackee 1983. NaN when the eye is on a corner.
-    double solid_angle() const {
-        return std::abs(2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(a, c) + dot(b, c)));
-    }
-
-    /// A direction uniform over the triangle (Arvo 1995, "Stratified Sampling of Spherical Triangles"): u.x
-    /// cuts off that fraction of the area by an arc through b, u.y chooses a place along that arc.
-    Vec3d sample(Vec2d u) const;
+  private:
+    Vec3 inverse_distance_; ///< of each corner
+    float ab_, bc_, ca_;    ///< cosines of the sides
+    float volume_;          ///< of the parallelepiped of the directions to the corners
+    float solid_angle_;
 };
 
 } // namespace alhazen

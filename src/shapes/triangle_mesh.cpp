@@ -11,8 +11,8 @@ namespace {
 
 // Solid angles (steradians) between which triangles are sampled by solid angle: smaller ones lose digits,
 // larger ones are left to BSDF sampling (Pharr, Jakob and Humphreys 2023, section 6.5.4).
-constexpr double least_solid_angle = 3e-4;
-constexpr double largest_solid_angle = 6.22;
+constexpr float least_solid_angle = 3e-4f;
+constexpr float largest_solid_angle = 6.22f;
 
 template <class V>
 V weigh(const std::vector<V>& values, const int* corners, Vec3d b) {
@@ -31,13 +31,10 @@ Vec3d weights_of(const Intersection& met) {
     return {1 - u - v, u, v};
 }
 
-// The weights of the corners where the ray from the eye along w meets the plane (Moeller and Trumbore 1997).
-Vec3d weights_along(Vec3d eye, Vec3d w, Vec3d a, Vec3d b, Vec3d c) {
-    Vec3d ab = b - a, ac = c - a, s = eye - a, n = cross(w, ac);
-    double scale = 1 / dot(ab, n);
-    double u = std::clamp(dot(s, n) * scale, 0.0, 1.0);
-    double v = std::clamp(dot(w, cross(s, ab)) * scale, 0.0, 1.0 - u);
-    return {1 - u - v, u, v};
+// The solid angle by which a triangle is sampled; 0 where by its area.
+float sampled_solid_angle(const SphericalTriangle& seen) {
+    float solid_angle = seen.solid_angle();
+    return solid_angle >= least_solid_angle && solid_angle <= largest_solid_angle ? solid_angle : 0;
 }
 
 } // namespace
@@ -66,12 +63,15 @@ std::array<Vec2, 3> TriangleMesh::corner_uv(std::uint32_t triangle) const {
             uv[static_cast<std::size_t>(i[2])]};
 }
 
-Vec3d TriangleMesh::face_normal(std::uint32_t triangle) const {
-    auto [a, b, c] = vertices(triangle);
-    Vec3d n = cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a));
+Vec3d TriangleMesh::oriented(Vec3d n) const {
     double size = length(n);
     if (!(size > 0)) return {0, 0, 1};
     return n * ((is_turned_ ? -1 : 1) / size);
+}
+
+Vec3d TriangleMesh::face_normal(std::uint32_t triangle) const {
+    auto [a, b, c] = vertices(triangle);
+    return oriented(cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a)));
 }
 
 Vec3d TriangleMesh::vertex_normal(std::uint32_t triangle, Vec3d b) const {
@@ -150,36 +150,37 @@ float TriangleMesh::area(std::uint32_t triangle) const {
     return static_cast<float>(0.5 * length(cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a))));
 }
 
-ShapeSample TriangleMesh::sample_at(std::uint32_t triangle, Vec3d b, float pdf) const {
-    Vec3d p = weigh_exactly(P, corner_indices(triangle), b), ng = face_normal(triangle);
-    if (dot(ng, vertex_normal(triangle, b)) < 0) ng = -ng;
+ShapeSample TriangleMesh::sample_at(std::uint32_t triangle, Vec2 weights, float pdf) const {
+    // Their sum must be 1 to the precision of p_error.
+    const Vec3d b(1 - static_cast<double>(weights.x) - static_cast<double>(weights.y),
+                  static_cast<double>(weights.x), static_cast<double>(weights.y));
     auto [pa, pb, pc] = vertices(triangle);
+    const Vec3d a(pa), ab = Vec3d(pb) - a, ac = Vec3d(pc) - a;
+    const Vec3d p = a + ab * b.y + ac * b.z;
+    Vec3d ng = oriented(cross(ab, ac));
+    if (!N.empty() && dot(ng, vertex_normal(triangle, b)) < 0) ng = -ng;
     auto corner = corner_uv(triangle);
-    Vec2 at = corner[0] * static_cast<float>(b.x) + corner[1] * static_cast<float>(b.y) +
-              corner[2] * static_cast<float>(b.z);
-    return {Vec3(p), rounding_error(p, abs_sum(Vec3d(pa), Vec3d(pb), Vec3d(pc))), Vec3(ng), at, pdf};
+    Vec2 at = corner[0] * static_cast<float>(b.x) + corner[1] * weights.x + corner[2] * weights.y;
+    return {Vec3(p), rounding_error(p, abs_sum(a, Vec3d(pb), Vec3d(pc))), Vec3(ng), at, pdf};
 }
 
 ShapeSample TriangleMesh::sample(std::uint32_t triangle, Vec2 u) const {
-    return sample_at(triangle, Vec3d(sample_triangle(u)), 1 / area(triangle));
+    Vec3 b = sample_triangle(u);
+    return sample_at(triangle, {b.y, b.z}, 1 / area(triangle));
 }
 
 std::optional<ShapeSample> TriangleMesh::sample_from(std::uint32_t triangle, Vec3 reference, Vec2 u) const {
     auto [a, b, c] = vertices(triangle);
-    SphericalTriangle seen{Vec3d(a), Vec3d(b), Vec3d(c), Vec3d(reference)};
-    double solid_angle = seen.solid_angle();
-    if (!(solid_angle >= least_solid_angle && solid_angle <= largest_solid_angle))
-        return Shape::sample_from(triangle, reference, u);
-    Vec3d weights = weights_along(Vec3d(reference), seen.sample(Vec2d(u)), Vec3d(a), Vec3d(b), Vec3d(c));
-    return sample_at(triangle, weights, static_cast<float>(1 / solid_angle));
+    SphericalTriangle seen{a, b, c, reference};
+    float solid_angle = sampled_solid_angle(seen);
+    if (solid_angle == 0) return Shape::sample_from(triangle, reference, u);
+    return sample_at(triangle, seen.sample(u), 1 / solid_angle);
 }
 
 float TriangleMesh::pdf_from(std::uint32_t triangle, Vec3 reference, const Hit& hit, Vec3 wi) const {
     auto [a, b, c] = vertices(triangle);
-    double solid_angle = SphericalTriangle(Vec3d(a), Vec3d(b), Vec3d(c), Vec3d(reference)).solid_angle();
-    if (!(solid_angle >= least_solid_angle && solid_angle <= largest_solid_angle))
-        return Shape::pdf_from(triangle, reference, hit, wi);
-    return static_cast<float>(1 / solid_angle);
+    float solid_angle = sampled_solid_angle({a, b, c, reference});
+    return solid_angle == 0 ? Shape::pdf_from(triangle, reference, hit, wi) : 1 / solid_angle;
 }
 
 Shape::NormalCone TriangleMesh::normals(std::uint32_t triangle) const {

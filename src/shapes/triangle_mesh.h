@@ -60,11 +60,12 @@ struct TriangleMesh : Shape {
 
   private:
     std::array<Vec2, 3> corner_uv(std::uint32_t triangle) const;
-    // Unit, by the order of the corners, turned over where the mesh is.
+    // The normal n by the order of the corners, at unit length, turned over where the mesh is.
+    Vec3d oriented(Vec3d n) const;
     Vec3d face_normal(std::uint32_t triangle) const;
     // Weighted by b; zero when the mesh has no normals.
     Vec3d vertex_normal(std::uint32_t triangle, Vec3d b) const;
-    ShapeSample sample_at(std::uint32_t triangle, Vec3d b, float pdf) const;
+    ShapeSample sample_at(std::uint32_t triangle, Vec2 weights, float pdf) const;
     void set_tangents(std::uint32_t triangle, Hit& hit, Vec3d b) const;
 
     bool is_turned_ = false;

@@ -211,21 +211,59 @@ TEST(BilinearMesh, ATriangleAsAPatchHasNormals) {
     EXPECT_NEAR(patch->normals(0).cosine, 1, 1e-5);
 }
 
-TEST(SphericalTriangle, IsSampledUniformly) {
-    // An eighth of the sphere, cut again where sampled x exceeds y: by symmetry one half each; and the mean
-    // direction of an octant is 1/2 along each axis.
-    SphericalTriangle octant{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
-    EXPECT_NEAR(octant.solid_angle(), 3.14159265358979 / 2, 1e-12);
+TEST(SphericalTriangle, AnOctantIsSampledUniformly) {
+    // By symmetry the mean direction is 1/2 along each axis.
+    SphericalTriangle octant{{2, 0, 0}, {0, 1, 0}, {0, 0, 5}, {0, 0, 0}};
+    EXPECT_NEAR(octant.solid_angle(), 3.14159265358979 / 2, 1e-6);
     Vec3d sum;
     constexpr int n = 200;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
-            Vec3d w = octant.sample({(i + 0.5) / n, (j + 0.5) / n});
-            ASSERT_NEAR(length(w), 1, 1e-12);
-            ASSERT_GE(std::min({w.x, w.y, w.z}), -1e-12);
-            sum += w;
+            Vec2 w = octant.sample({(static_cast<float>(i) + 0.5f) / n, (static_cast<float>(j) + 0.5f) / n});
+            ASSERT_GE(std::min({w.x, w.y, 1 - w.x - w.y}), 0);
+            sum += normalize(Vec3d(2 * (1 - w.x - w.y), w.x, 5 * w.y));
         }
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(sum[axis] / (n * n), 0.5, 1e-4);
+}
+
+// The solid angle of corners a, b, c seen from the origin.
+double exact_solid_angle(Vec3d a, Vec3d b, Vec3d c) {
+    double x = length(a), y = length(b), z = length(c);
+    return std::abs(
+        2 * std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(a, c) * y + dot(b, c) * x));
+}
+
+// Triangles from tiny to wide, seen from straight ahead to nearly edge-on: the part of the triangle whose
+// points have smaller numbers u is the part u of the solid angle.
+TEST(SphericalTriangle, NumbersCutOffTheirFractionOfTheArea) {
+    Rng rng(5);
+    auto corner = [&](float size) {
+        return Vec3(rng.uniform() - 0.5f, rng.uniform() - 0.5f, rng.uniform() - 0.5f) * size;
+    };
+    int checked = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const float size = std::pow(10.0f, 3 * rng.uniform() - 1.5f);
+        const Vec3 eye{100, -30, 7}, centre = eye + normalize(corner(1));
+        const Vec3 a = centre + corner(size), b = centre + corner(size), c = centre + corner(size);
+        SphericalTriangle seen{a, b, c, eye};
+        const Vec3d da = Vec3d(a) - Vec3d(eye), db = Vec3d(b) - Vec3d(eye), dc = Vec3d(c) - Vec3d(eye);
+        const double whole = exact_solid_angle(da, db, dc);
+        if (whole < 3e-4 || whole > 6.22) continue;
+        ++checked;
+        ASSERT_NEAR(seen.solid_angle(), whole, 1e-5 + 1e-3 * whole);
+        for (float part : {0.1f, 0.5f, 0.9f}) {
+            Vec2 w = seen.sample({part, 1});
+            const Vec3d end = normalize(da * (1.0 - w.x - w.y) + db * double{w.x} + dc * double{w.y});
+            ASSERT_NEAR(w.x, 0, 1e-3); // on the side from a to c
+            ASSERT_NEAR(exact_solid_angle(da, db, end) / whole, part, 2e-3);
+            // The cosine to b falls evenly along the arc.
+            Vec2 middle = seen.sample({part, 0.5f});
+            const Vec3d m = da * (1.0 - middle.x - middle.y) + db * double{middle.x} + dc * double{middle.y};
+            const double full = 1 - dot(normalize(db), end);
+            ASSERT_NEAR(1 - dot(normalize(db), normalize(m)), full / 2, 2e-3 * full + 1e-9);
+        }
+    }
+    EXPECT_GT(checked, 1000);
 }
 
 // An icosahedron, each triangle cut into four, a few times.
