@@ -6,12 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
-#include "base/hash.h"
+#include "color/sigmoid_quadrature.h"
 
 namespace alhazen {
 
@@ -25,82 +24,6 @@ SigmoidCoefficients to_float(Vec3d c) {
 }
 Vec3d to_double(SigmoidCoefficients c) {
     return {c.c0, c.c1, c.c2};
-}
-
-/// Weights with which a spectrum's values at evenly spaced nodes sum to the linear RGB of a reflectance under
-/// the space's illuminant. The sums over whole nm that define colours here are carried to the nodes by cubic
-/// Lagrange interpolation between them, so few nodes do.
-class Quadrature {
-  public:
-    static constexpr int node_step = 5, node_count = 96; // 360 to 835 nm
-    static constexpr int group_count = node_count / 4;
-    struct Group {
-        Spectrum t, r, g, b;
-    };
-
-    explicit Quadrature(const RgbColorSpace& space) {
-        std::array<Vec3d, node_count> weights{};
-        Vec3d white;
-        for (int nm = 0; nm <= static_cast<int>(lambda_max - lambda_min); ++nm) {
-            float lambda = lambda_min + static_cast<float>(nm);
-            Vec3d xyz = Vec3d(cie_x().eval(lambda), cie_y().eval(lambda), cie_z().eval(lambda)) *
-                        static_cast<double>(space.illuminant->eval(lambda));
-            Vec3d rgb = space.rgb_from_xyz * xyz;
-            white += rgb;
-            spread(weights, nm, rgb);
-        }
-        for (std::size_t i = 0; i < groups_.size(); ++i) {
-            for (int lane = 0; lane < 4; ++lane) {
-                std::size_t node = 4 * i + static_cast<std::size_t>(lane);
-                float lambda = lambda_min + static_cast<float>(node * node_step);
-                groups_[i].t.set(lane, (lambda - 595) * (1 / 235.0f));
-                groups_[i].r.set(lane, static_cast<float>(weights[node].x / white.x));
-                groups_[i].g.set(lane, static_cast<float>(weights[node].y / white.y));
-                groups_[i].b.set(lane, static_cast<float>(weights[node].z / white.z));
-            }
-        }
-    }
-    const std::array<Group, group_count>& groups() const { return groups_; }
-
-  private:
-    static void spread(std::array<Vec3d, node_count>& weights, int nm, Vec3d rgb) {
-        int first = std::clamp(nm / node_step - 1, 0, node_count - 4);
-        double x = static_cast<double>(nm) / node_step - first;
-        for (int i = 0; i < 4; ++i) {
-            double lagrange = 1;
-            for (int j = 0; j < 4; ++j) {
-                if (j != i) lagrange *= (x - j) / (i - j);
-            }
-            weights[static_cast<std::size_t>(first + i)] += rgb * lagrange;
-        }
-    }
-
-    std::array<Group, group_count> groups_;
-};
-
-/// The colour of a sigmoid spectrum and its derivatives after each coefficient.
-struct Color {
-    Vec3d rgb;
-    Matrix3 by_coefficient;
-};
-
-Color color_of(const Quadrature& quadrature, SigmoidCoefficients c) {
-    Spectrum r(0), g(0), b(0), r0(0), r1(0), r2(0), g0(0), g1(0), g2(0), b0(0), b1(0), b2(0);
-    for (const Quadrature::Group& q : quadrature.groups()) {
-        Spectrum x = (c.c0 * q.t + c.c1) * q.t + c.c2;
-        Spectrum square = 1.0f + x * x;
-        Spectrum inverse = 1.0f / sqrt(square);
-        Spectrum value = 0.5f + 0.5f * x * inverse;
-        Spectrum slope = 0.5f * inverse / square;
-        Spectrum slope_t = slope * q.t, slope_tt = slope_t * q.t;
-        r += q.r * value, g += q.g * value, b += q.b * value;
-        r2 += q.r * slope, g2 += q.g * slope, b2 += q.b * slope;
-        r1 += q.r * slope_t, g1 += q.g * slope_t, b1 += q.b * slope_t;
-        r0 += q.r * slope_tt, g0 += q.g * slope_tt, b0 += q.b * slope_tt;
-    }
-    return {
-        {r.sum(), g.sum(), b.sum()},
-        {{{{r0.sum(), r1.sum(), r2.sum()}, {g0.sum(), g1.sum(), g2.sum()}, {b0.sum(), b1.sum(), b2.sum()}}}}};
 }
 
 /// CIE 1976 L*a*b* relative to the space's white, over 100, and its derivatives after XYZ / white.
@@ -162,7 +85,7 @@ class Upsampler {
         const Vec3d start = interpolate(rgb);
         Vec3d c = start;
         for (int i = 0; i < newton_steps; ++i) {
-            const Color color = color_of(quadrature_, to_float(c));
+            const SigmoidColor color = quadrature_.color(to_float(c));
             const Vec3d residual = color.rgb - Vec3d(rgb);
             if (largest(residual) <= good_enough) return to_float(c);
             c -= color.by_coefficient.inverse() * residual;
@@ -220,7 +143,7 @@ class Upsampler {
     }
 
     Guess guess(Vec3d coefficients, const Lab& target) const {
-        Color color = color_of(quadrature_, to_float(coefficients));
+        SigmoidColor color = quadrature_.color(to_float(coefficients));
         Lab lab = lab_of(xyz_from_rgb_ * color.rgb);
         Vec3d residual = lab.value - target.value;
         return {coefficients, color.rgb, residual, lab.by_xyz * xyz_from_rgb_ * color.by_coefficient,
@@ -267,7 +190,7 @@ class Upsampler {
         return best;
     }
 
-    Quadrature quadrature_;
+    SigmoidQuadrature quadrature_;
     Matrix3 xyz_from_rgb_;
     std::array<float, resolution> scales_{};
     std::vector<SigmoidCoefficients> table_; ///< by largest component, its value, and the other two over it
@@ -323,23 +246,6 @@ SigmoidCoefficients SigmoidCoefficients::grey(float value) {
 SigmoidCoefficients upsample(const RgbColorSpace& space, Vec3 rgb) {
     rgb = in_range(rgb);
     return is_grey(rgb) ? SigmoidCoefficients::grey(rgb.x) : upsampler_of(space).find(rgb);
-}
-
-void upsample(const RgbColorSpace& space, std::span<const Vec3> rgb, std::span<SigmoidCoefficients> out) {
-    // Pictures of eight bits show the same colours again and again.
-    struct Known {
-        Vec3 rgb{-1, -1, -1};
-        SigmoidCoefficients coefficients;
-    };
-    std::vector<Known> known(std::min<std::size_t>(std::bit_ceil(rgb.size()), 4096));
-    for (std::size_t i = 0; i < rgb.size(); ++i) {
-        Known& k =
-            known[hash_of(std::bit_cast<std::uint32_t>(rgb[i].x), std::bit_cast<std::uint32_t>(rgb[i].y),
-                          std::bit_cast<std::uint32_t>(rgb[i].z)) &
-                  (known.size() - 1)];
-        if (!(k.rgb == rgb[i])) k = {rgb[i], upsample(space, rgb[i])};
-        out[i] = k.coefficients;
-    }
 }
 
 } // namespace alhazen

@@ -35,7 +35,12 @@ struct SigmoidCoefficients {
 /// call for a space fits its table of starting points, which takes tens of milliseconds. Thread-safe and
 /// deterministic.
 SigmoidCoefficients upsample(const RgbColorSpace& space, Vec3 rgb);
-/// The same for many colours; out must be as long as rgb. Colours that come again soon are computed once.
+/// Of the upsampling of many colours at once: the largest difference, in any component of linear sRGB,
+/// between a colour and that of its spectrum, above what the upsampling of that colour alone leaves.
+inline constexpr double upsample_error = 1e-4;
+
+/// The same for many colours at once, on the threads of the enclosing with_threads, to within upsample_error:
+/// several times faster. Each result depends on its own colour only. out must be as long as rgb.
 void upsample(const RgbColorSpace& space, std::span<const Vec3> rgb, std::span<SigmoidCoefficients> out);
 
 } // namespace alhazen

@@ -1,7 +1,5 @@
 #include "textures/texels.h"
 
-#include "base/threads.h"
-
 namespace alhazen {
 
 namespace {
@@ -66,11 +64,7 @@ struct ScaledTexels final : ColorTexels {
 
 std::vector<SigmoidCoefficients> upsample_all(const std::vector<Vec3>& colors) {
     std::vector<SigmoidCoefficients> out(colors.size());
-    // Each colour's coefficients depend on that colour alone, so the split does not show.
-    parallel_ranges(colors.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        upsample(srgb_space(), std::span(colors).subspan(begin, end - begin),
-                 std::span(out).subspan(begin, end - begin));
-    });
+    upsample(srgb_space(), colors, out);
     return out;
 }
 

@@ -1,5 +1,6 @@
 #include "color/upsample.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -105,21 +106,62 @@ TEST(Upsample, ComponentsAreClamped) {
     EXPECT_TRUE(same(upsample(srgb_space(), {nan, 0.5f, 0.2f}), upsample(srgb_space(), {0, 0.5f, 0.2f})));
 }
 
-TEST(Upsample, SpansGiveTheSameAsSingleColors) {
+// Colours as pictures have them: with all, none or little saturation, bright and dark.
+std::vector<Vec3> many_colors(std::size_t count) {
     Rng rng(6);
     std::vector<Vec3> colors;
-    for (int i = 0; i < 40; ++i) {
+    while (colors.size() < count) {
         Vec3 rgb(rng.uniform(), rng.uniform(), rng.uniform());
-        colors.insert(colors.end(), static_cast<std::size_t>(1 + i % 3), rgb);
+        if (rng.uniform() < 0.5f) rgb = lerp(rng.uniform(), Vec3(rng.uniform()), rgb);
+        if (rng.uniform() < 0.5f) rgb = rgb * rgb.x;
+        colors.push_back(rgb);
+        if (rng.uniform() < 0.1f) colors.push_back(Vec3(rgb.y));
+        if (rng.uniform() < 0.1f) colors.push_back(rgb);
     }
+    return colors;
+}
+
+TEST(Upsample, ManyColorsComeBackWithinTheBound) {
+    const std::vector<Vec3> colors = many_colors(10000);
     std::vector<SigmoidCoefficients> out(colors.size());
     upsample(srgb_space(), colors, out);
+    int alike = 0;
     for (std::size_t i = 0; i < colors.size(); ++i) {
-        SigmoidCoefficients c = upsample(srgb_space(), colors[i]);
-        EXPECT_EQ(out[i].c0, c.c0);
-        EXPECT_EQ(out[i].c1, c.c1);
-        EXPECT_EQ(out[i].c2, c.c2);
+        const double error = max_component(abs(shown(srgb_space(), out[i]) - Vec3d(colors[i])));
+        // Next to white one colour alone is further off; see above.
+        const double alone = round_trip_error(srgb_space(), colors[i]);
+        ASSERT_LE(error, alone + upsample_error) << colors[i].x << ' ' << colors[i].y << ' ' << colors[i].z;
+        alike += error < 1e-5;
     }
+    EXPECT_GT(alike, 5000); // most are far better than the bound
+}
+
+TEST(Upsample, OfManyColorsEachDependsOnItselfAlone) {
+    std::vector<Vec3> colors = many_colors(40000);
+    std::vector<SigmoidCoefficients> all(colors.size()), some(colors.size() / 3), one(1);
+    upsample(srgb_space(), colors, all);
+    std::reverse(colors.begin(), colors.end());
+    upsample(srgb_space(), std::span(colors).first(some.size()), some);
+    auto same = [](SigmoidCoefficients a, SigmoidCoefficients b) {
+        return a.c0 == b.c0 && a.c1 == b.c1 && a.c2 == b.c2;
+    };
+    for (std::size_t i = 0; i < some.size(); ++i) EXPECT_TRUE(same(some[i], all[all.size() - 1 - i]));
+    for (std::size_t i = 0; i < 50; ++i) {
+        upsample(srgb_space(), std::span(colors).subspan(i, 1), one);
+        EXPECT_TRUE(same(one[0], some[i]));
+    }
+}
+
+TEST(Upsample, ManyColorsAreClampedAndGreysAreFlat) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<Vec3> colors{
+        {2, 2, 2}, {-1, nan, 0}, {0.25f, 0.25f, 0.25f}, {2, 0.5f, -1}, {1, 0.5f, 0}};
+    std::vector<SigmoidCoefficients> out(colors.size());
+    upsample(srgb_space(), colors, out);
+    EXPECT_EQ(out[0].eval(500.0f), 1);
+    EXPECT_EQ(out[1].eval(500.0f), 0);
+    EXPECT_NEAR(out[2].eval(400.0f), 0.25f, 2e-7f);
+    EXPECT_EQ(out[3].c2, out[4].c2);
 }
 
 TEST(Upsample, MaximumBoundsTheSpectrum) {
