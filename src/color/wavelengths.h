@@ -32,10 +32,14 @@ inline float visible_wavelength_pdf(float lambda) {
     if (!(lambda >= lambda_min && lambda <= lambda_max)) return 0;
     return 0.0039398042f / sqr(std::cosh(0.0072f * (lambda - 538)));
 }
-/// The wavelength in nm below which the fraction u (0 <= u <= 1) of that density lies.
-inline float sample_visible_wavelength(float u) {
-    float lambda = 538 - 138.888889f * std::atanh(0.85691062f - 1.82750197f * u);
-    return std::clamp(lambda, lambda_min, lambda_max);
+/// The wavelength in nm below which the fraction u (0 <= u <= 1) of that density lies, and the density there.
+struct VisibleWavelength {
+    float lambda, pdf;
+};
+inline VisibleWavelength sample_visible_wavelength(float u) {
+    const float t = 0.85691062f - 1.82750197f * u; // tanh(0.0072 (538 - lambda))
+    const float lambda = 538 - 138.888889f / 2 * std::log((1 + t) / (1 - t));
+    return {std::clamp(lambda, lambda_min, lambda_max), 0.0039398042f * (1 - sqr(t))};
 }
 
 /// The wavelengths of one path and the density each was drawn with.
@@ -50,9 +54,9 @@ struct Wavelengths {
         for (int i = 0; i < 4; ++i) {
             float partner = u + 0.25f * static_cast<float>(i);
             if (partner >= 1) partner -= 1;
-            float lambda = sample_visible_wavelength(partner);
-            w.lambda.set(i, lambda);
-            w.pdf.set(i, visible_wavelength_pdf(lambda));
+            const VisibleWavelength sampled = sample_visible_wavelength(partner);
+            w.lambda.set(i, sampled.lambda);
+            w.pdf.set(i, sampled.pdf);
         }
         return w;
     }
