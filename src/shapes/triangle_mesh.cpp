@@ -21,11 +21,6 @@ V weigh(const std::vector<V>& values, const int* corners, Vec3d b) {
            at(2) * static_cast<float>(b.z);
 }
 
-Vec3d weigh_exactly(const std::vector<Vec3>& values, const int* corners, Vec3d b) {
-    auto at = [&](int i) { return Vec3d(values[static_cast<std::size_t>(corners[i])]); };
-    return at(0) * b.x + at(1) * b.y + at(2) * b.z;
-}
-
 Vec3d weights_of(const Intersection& met) {
     double u = static_cast<double>(met.u), v = static_cast<double>(met.v);
     return {1 - u - v, u, v};
@@ -75,7 +70,7 @@ Vec3d TriangleMesh::face_normal(std::uint32_t triangle) const {
 }
 
 Vec3d TriangleMesh::vertex_normal(std::uint32_t triangle, Vec3d b) const {
-    return N.empty() ? Vec3d{} : weigh_exactly(N, corner_indices(triangle), b);
+    return N.empty() ? Vec3d{} : Vec3d(weigh(N, corner_indices(triangle), b));
 }
 
 Bounds3 TriangleMesh::bounds(std::uint32_t triangle) const {
@@ -84,59 +79,75 @@ Bounds3 TriangleMesh::bounds(std::uint32_t triangle) const {
     return box;
 }
 
+/// A triangle by one corner and the two sides from there.
+struct TriangleMesh::Sides {
+    Vec3d a, ab, ac;
+    Vec3d magnitude; ///< sum of the corners' absolute coordinates
+
+    explicit Sides(const std::array<Vec3, 3>& corners)
+        : a(corners[0]), ab(Vec3d(corners[1]) - a), ac(Vec3d(corners[2]) - a),
+          magnitude(abs_sum(a, Vec3d(corners[1]), Vec3d(corners[2]))) {}
+};
+
+Hit TriangleMesh::plain_surface(const Ray& ray, std::uint32_t triangle, const Intersection& met) const {
+    return plain_hit(ray, triangle, met, Sides(vertices(triangle)));
+}
+
 Hit TriangleMesh::surface(const Ray& ray, std::uint32_t triangle, const Intersection& met) const {
-    Hit hit = plain_surface(ray, triangle, met);
-    Vec3d b = weights_of(met);
-    auto corner = corner_uv(triangle);
+    const Sides sides(vertices(triangle));
+    Hit hit = plain_hit(ray, triangle, met, sides);
+    const Vec3d b = weights_of(met);
+    const auto corner = corner_uv(triangle);
     hit.uv = corner[0] * static_cast<float>(b.x) + corner[1] * static_cast<float>(b.y) +
              corner[2] * static_cast<float>(b.z);
-    set_tangents(triangle, hit, b);
+    set_tangents(hit, sides.ab, sides.ac, Vec2d(corner[1]) - Vec2d(corner[0]),
+                 Vec2d(corner[2]) - Vec2d(corner[0]));
+    if (!N.empty() || !S.empty())
+        set_shading_tangents(hit, S.empty() ? hit.dpdu : weigh(S, corner_indices(triangle), b));
     return hit;
 }
 
-Hit TriangleMesh::plain_surface(const Ray& ray, std::uint32_t triangle, const Intersection& met) const {
-    const int* corners = corner_indices(triangle);
-    Vec3d b = weights_of(met);
-    Vec3d p = weigh_exactly(P, corners, b);
-    Vec3d ng = face_normal(triangle), ns = vertex_normal(triangle, b);
-    double size = length(ns);
-    // Vertex normals decide which side is outside.
-    if (dot(ng, ns) < 0) ng = -ng;
+Hit TriangleMesh::plain_hit(const Ray& ray, std::uint32_t triangle, const Intersection& met,
+                            const Sides& sides) const {
+    const Vec3d b = weights_of(met), p = sides.a + sides.ab * b.y + sides.ac * b.z;
     Hit hit;
     hit.p = Vec3(p);
-    auto [pa, pb, pc] = vertices(triangle);
-    hit.p_error = rounding_error(p, abs_sum(Vec3d(pa), Vec3d(pb), Vec3d(pc)));
+    hit.p_error = rounding_error(p, sides.magnitude);
     hit.wo = Vec3(normalize(Vec3d(-ray.d)));
-    hit.ng = Vec3(ng);
-    hit.ns = size > 0 && std::isfinite(size) ? Vec3(ns * (1 / size)) : hit.ng;
+    hit.ng = hit.ns = Vec3(oriented(cross(sides.ab, sides.ac)));
+    if (!N.empty()) {
+        Vec3d ns = vertex_normal(triangle, b);
+        double size = length(ns);
+        // Vertex normals decide which side is outside.
+        if (dot(Vec3d(hit.ng), ns) < 0) hit.ng = -hit.ng;
+        hit.ns = size > 0 && std::isfinite(size) ? Vec3(ns * (1 / size)) : hit.ng;
+    }
     hit.t = met.t;
     hit.time = ray.time;
     hit.primitive = triangle;
     return hit;
 }
 
-void TriangleMesh::set_tangents(std::uint32_t triangle, Hit& hit, Vec3d b) const {
-    auto [pa, pb, pc] = vertices(triangle);
-    auto corner = corner_uv(triangle);
-    Vec3d dp0 = Vec3d(pa) - Vec3d(pc), dp1 = Vec3d(pb) - Vec3d(pc);
-    Vec2d duv0 = Vec2d(corner[0]) - Vec2d(corner[2]), duv1 = Vec2d(corner[1]) - Vec2d(corner[2]);
-    double determinant = duv0.x * duv1.y - duv0.y * duv1.x;
-    // p is linear in uv, so two edges give the derivatives, unless the parameters do not span the plane.
-    if (std::abs(determinant) > 1e-9 * length(duv0) * length(duv1)) {
-        hit.dpdu = Vec3((dp0 * duv1.y - dp1 * duv0.y) * (1 / determinant));
-        hit.dpdv = Vec3((dp1 * duv0.x - dp0 * duv1.x) * (1 / determinant));
+// p is linear in uv, so two edges give the derivatives, unless the parameters do not span the plane.
+void TriangleMesh::set_tangents(Hit& hit, Vec3d ab, Vec3d ac, Vec2d uv_ab, Vec2d uv_ac) {
+    const double determinant = uv_ab.x * uv_ac.y - uv_ab.y * uv_ac.x;
+    if (determinant * determinant > 1e-18 * length_squared(uv_ab) * length_squared(uv_ac)) {
+        const double scale = 1 / determinant;
+        hit.dpdu = Vec3((ab * uv_ac.y - ac * uv_ab.y) * scale);
+        hit.dpdv = Vec3((ac * uv_ab.x - ab * uv_ac.x) * scale);
     } else {
         Frame frame = Frame::from_z(hit.ng);
         hit.dpdu = frame.x;
         hit.dpdv = frame.y;
     }
-    if (N.empty() && S.empty()) return;
-    // The shading tangent: the mesh's own, or dpdu, laid across the shading normal.
-    Vec3 tangent = S.empty() ? hit.dpdu : weigh(S, corner_indices(triangle), b);
+}
+
+// The tangent (or, where there is none, dpdu) laid across the shading normal.
+void TriangleMesh::set_shading_tangents(Hit& hit, Vec3 tangent) {
     if (!(length_squared(tangent) > 0)) tangent = hit.dpdu;
-    Vec3 bitangent = cross(hit.ns, tangent);
+    const Vec3 bitangent = cross(hit.ns, tangent);
     if (length_squared(bitangent) > 0) {
-        hit.dpdu = cross(bitangent, hit.ns);
+        hit.dpdu = tangent - hit.ns * dot(hit.ns, tangent);
         hit.dpdv = bitangent;
     } else {
         Frame frame = Frame::from_z(hit.ns);

@@ -66,7 +66,11 @@ struct TriangleMesh : Shape {
     // Weighted by b; zero when the mesh has no normals.
     Vec3d vertex_normal(std::uint32_t triangle, Vec3d b) const;
     ShapeSample sample_at(std::uint32_t triangle, Vec2 weights, float pdf) const;
-    void set_tangents(std::uint32_t triangle, Hit& hit, Vec3d b) const;
+    struct Sides;
+    // Without uv and tangents.
+    Hit plain_hit(const Ray& ray, std::uint32_t triangle, const Intersection& met, const Sides& sides) const;
+    static void set_tangents(Hit& hit, Vec3d ab, Vec3d ac, Vec2d uv_ab, Vec2d uv_ac);
+    static void set_shading_tangents(Hit& hit, Vec3 tangent);
 
     bool is_turned_ = false;
 };
