@@ -3,15 +3,21 @@
 #include <array>
 #include <limits>
 
+#include "base/lanes.h"
+#include "color/spectrum.h"
+
 namespace alhazen {
 namespace {
 
 /// cos(max(0, a - b)) and sin(max(0, a - b)) for angles within 0 ... pi.
-float cos_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-    return cos_a > cos_b ? 1 : cos_a * cos_b + sin_a * sin_b;
+Lanes4 cos_of_difference(Lanes4 sin_a, Lanes4 cos_a, Lanes4 sin_b, Lanes4 cos_b) {
+    return cos_a > cos_b ? all_lanes(1) : cos_a * cos_b + sin_a * sin_b;
 }
-float sin_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-    return cos_a > cos_b ? 0 : sin_a * cos_b - cos_a * sin_b;
+Lanes4 sin_of_difference(Lanes4 sin_a, Lanes4 cos_a, Lanes4 sin_b, Lanes4 cos_b) {
+    return cos_a > cos_b ? all_lanes(0) : sin_a * cos_b - cos_a * sin_b;
+}
+Lanes4 square_root(Lanes4 v) {
+    return sqrt(Spectrum(max_lanes(v, all_lanes(0)))).lanes;
 }
 
 constexpr int bucket_count = 12;
@@ -59,14 +65,16 @@ LightTree::LightTree(std::span<const LightBounds> bounds) : trails_(bounds.size(
         if (bounds[i].power > 0 && !bounds[i].bounds.empty())
             items.push_back({LightGroup(bounds[i]), bounds[i].bounds.centroid(), i});
     nodes_.reserve(2 * items.size());
-    if (!items.empty()) build(items, 0, 0);
+    if (items.empty()) return;
+    const LightGroup all = build(items, 0, 0);
+    all_.set(0, all);
+    all_.set(1, all);
 }
 
 LightGroup LightTree::build(std::span<Item> items, std::uint64_t trail, int depth) {
     std::size_t index = nodes_.size();
     nodes_.emplace_back();
     if (items.size() == 1) {
-        set_node(index, items[0].group);
         nodes_[index].is_leaf = true;
         nodes_[index].second = items[0].light;
         trails_[items[0].light] = trail;
@@ -99,53 +107,64 @@ LightGroup LightTree::build(std::span<Item> items, std::uint64_t trail, int dept
     auto first_count = static_cast<std::size_t>(middle - items.begin());
     LightGroup group = build(items.first(first_count), trail, depth + 1);
     nodes_[index].second = static_cast<std::uint32_t>(nodes_.size());
-    group.merge(build(items.subspan(first_count), trail | (std::uint64_t{1} << depth), depth + 1));
-    set_node(index, group);
+    const LightGroup second =
+        build(items.subspan(first_count), trail | (std::uint64_t{1} << depth), depth + 1);
+    nodes_[index].children.set(0, group);
+    nodes_[index].children.set(1, second);
+    group.merge(second);
     return group;
 }
 
-void LightTree::set_node(std::size_t index, const LightGroup& group) {
-    Node& node = nodes_[index];
-    Sphere3 sphere = bounding_sphere(group.bounds);
-    node.center = sphere.center;
-    node.radius_squared = sqr(sphere.radius);
-    node.axis = group.axis;
-    node.cos_normals = std::cos(group.normal_angle);
-    node.sin_normals = std::sin(group.normal_angle);
-    node.cos_falloff = std::cos(group.falloff_angle);
-    node.power = group.power;
-    node.two_sided = group.two_sided;
+void LightTree::Pair::set(std::size_t i, const LightGroup& group) {
+    const Sphere3 sphere = bounding_sphere(group.bounds);
+    for (int k = 0; k < 3; ++k) {
+        center[static_cast<std::size_t>(k)][i] = sphere.center[k];
+        axis[static_cast<std::size_t>(k)][i] = group.axis[k];
+    }
+    radius_squared[i] = sqr(sphere.radius);
+    cos_normals[i] = std::cos(group.normal_angle);
+    sin_normals[i] = std::sin(group.normal_angle);
+    cos_falloff[i] = std::cos(group.falloff_angle);
+    power[i] = group.power;
+    two_sided[i] = group.two_sided ? -1 : 0;
 }
 
-// An upper bound, up to a factor, of what the group gives the receiver. Where the paper's bound is close to
-// 0, it is kept a little above, so that rounding never makes a light that contributes impossible to find.
-float LightTree::Node::importance(const LightReceiver& at) const {
+// Where the paper's bound is close to 0, it is kept a little above, so that rounding never makes a light that
+// contributes impossible to find.
+LightTree::Pair::Two LightTree::Pair::importance(const LightReceiver& at) const {
     constexpr float smallest_cosine = 1e-3f;
-    Vec3 v = at.p - center;
-    float d2 = length_squared(v);
-    float cos_emitted = 1, cos_received = 1;
-    if (d2 > radius_squared && d2 < infinity) {
-        Vec3 w = v / std::sqrt(d2);
-        float sin2_b = radius_squared / d2; // angle b: the group's radius as seen from the receiver
-        float sin_b = std::sqrt(sin2_b), cos_b = safe_sqrt(1 - sin2_b);
-        float cos_w = std::clamp(dot(axis, w), -1.0f, 1.0f);
-        if (two_sided) cos_w = std::abs(cos_w);
-        float sin_w = safe_sqrt(1 - cos_w * cos_w);
-        float cos_x = cos_of_difference(sin_w, cos_w, sin_normals, cos_normals);
-        float sin_x = sin_of_difference(sin_w, cos_w, sin_normals, cos_normals);
-        cos_emitted = cos_of_difference(sin_x, cos_x, sin_b, cos_b);
-        if (cos_emitted < cos_falloff - smallest_cosine) return 0;
-        if (at.ns != Vec3()) {
-            float cos_i = std::min(abs_dot(w, at.ns), 1.0f);
-            cos_received = cos_of_difference(safe_sqrt(1 - cos_i * cos_i), cos_i, sin_b, cos_b);
-        }
+    auto load = [](const Two& v) { return join_pairs(v.data(), v.data()); };
+    const Lanes4 x = at.p.x - load(center[0]), y = at.p.y - load(center[1]), z = at.p.z - load(center[2]);
+    const Lanes4 d2 = x * x + y * y + z * z, radius2 = load(radius_squared);
+    const Lanes4 scale = 1 / square_root(d2);
+    const Lanes4 sin2_b = radius2 / d2; // angle b: the group's radius as seen from the receiver
+    const Lanes4 sin_b = square_root(sin2_b), cos_b = square_root(1 - sin2_b);
+    auto cosine = [](Lanes4 v) { return max_lanes(min_lanes(v, all_lanes(1)), all_lanes(-1)); };
+    Lanes4 cos_w = cosine((x * load(axis[0]) + y * load(axis[1]) + z * load(axis[2])) * scale);
+    const IntLanes4 both{two_sided[0], two_sided[1], two_sided[0], two_sided[1]};
+    cos_w = both & (cos_w < 0) ? -cos_w : cos_w;
+    const Lanes4 sin_w = square_root(1 - cos_w * cos_w), cos_n = load(cos_normals), sin_n = load(sin_normals);
+    Lanes4 cos_emitted = cos_of_difference(sin_of_difference(sin_w, cos_w, sin_n, cos_n),
+                                           cos_of_difference(sin_w, cos_w, sin_n, cos_n), sin_b, cos_b);
+    Lanes4 cos_received = all_lanes(1);
+    if (at.ns != Vec3()) {
+        Lanes4 cos_i = cosine((x * at.ns.x + y * at.ns.y + z * at.ns.z) * scale);
+        cos_i = cos_i < 0 ? -cos_i : cos_i;
+        cos_received = cos_of_difference(square_root(1 - cos_i * cos_i), cos_i, sin_b, cos_b);
     }
+    const IntLanes4 outside = (d2 > radius2) & (d2 < infinity);
+    const IntLanes4 is_dark = outside & (cos_emitted < load(cos_falloff) - smallest_cosine);
+    const Lanes4 least = all_lanes(smallest_cosine);
+    cos_emitted = outside ? max_lanes(cos_emitted, least) : all_lanes(1);
+    cos_received = outside ? max_lanes(cos_received, least) : all_lanes(1);
     // Points at a light of no size are taken for very near ones.
-    float value = power * std::max(cos_emitted, smallest_cosine) * std::max(cos_received, smallest_cosine) /
-                  std::max(std::max(d2, radius_squared), 1e-20f);
+    const Lanes4 value =
+        load(power) * cos_emitted * cos_received / max_lanes(max_lanes(d2, radius2), all_lanes(1e-20f));
     // Not too large for two to be added; the comparison also catches NaN.
     constexpr float largest = 1e30f;
-    return value < largest ? std::max(value, std::numeric_limits<float>::min()) : largest;
+    const Lanes4 in_range =
+        value < largest ? max_lanes(value, all_lanes(std::numeric_limits<float>::min())) : all_lanes(largest);
+    return {is_dark[0] ? 0.0f : in_range[0], is_dark[1] ? 0.0f : in_range[1]};
 }
 
 std::optional<LightTree::Found> LightTree::find(const LightReceiver& at, float u) const {
@@ -154,7 +173,7 @@ std::optional<LightTree::Found> LightTree::find(const LightReceiver& at, float u
     std::uint32_t i = 0;
     while (!nodes_[i].is_leaf) {
         std::uint32_t second = nodes_[i].second;
-        float a = nodes_[i + 1].importance(at), b = nodes_[second].importance(at);
+        const auto [a, b] = nodes_[i].children.importance(at);
         if (a + b == 0) return std::nullopt;
         // u is stretched over the child's part of the unit interval and used again.
         float to_first = a / (a + b);
@@ -163,7 +182,7 @@ std::optional<LightTree::Found> LightTree::find(const LightReceiver& at, float u
         probability *= (first ? a : b) / (a + b);
         i = first ? i + 1 : second;
     }
-    if (i == 0 && nodes_[0].importance(at) == 0) return std::nullopt;
+    if (is_unlit_by_all(at)) return std::nullopt;
     return Found{nodes_[i].second, probability};
 }
 
@@ -174,13 +193,13 @@ float LightTree::probability(const LightReceiver& at, std::uint32_t light) const
     std::uint32_t i = 0;
     for (; !nodes_[i].is_leaf; trail >>= 1) {
         std::uint32_t second = nodes_[i].second;
-        float a = nodes_[i + 1].importance(at), b = nodes_[second].importance(at);
+        const auto [a, b] = nodes_[i].children.importance(at);
         bool first = (trail & 1) == 0;
         if ((first ? a : b) == 0) return 0;
         probability *= (first ? a : b) / (a + b);
         i = first ? i + 1 : second;
     }
-    return i == 0 && nodes_[0].importance(at) == 0 ? 0 : probability;
+    return is_unlit_by_all(at) ? 0 : probability;
 }
 
 } // namespace alhazen

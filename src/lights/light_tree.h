@@ -5,6 +5,7 @@
 /// looking inside.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -48,19 +49,22 @@ class LightTree {
     float probability(const LightReceiver& at, std::uint32_t light) const;
 
   private:
-    /// 64 bytes: one cache line. The box is kept as the sphere around it, which is all that importance asks
-    /// for.
-    struct alignas(64) Node {
-        Vec3 center;
-        float radius_squared = 0;
-        Vec3 axis;
-        float cos_normals = 1, sin_normals = 0;
-        float cos_falloff = 0;
-        float power = 0;
-        bool two_sided = false, is_leaf = false;
-        std::uint32_t second = 0; ///< second child (the first follows its parent); in a leaf, the light
+    /// Two groups side by side, as importance asks for them. Each box is kept as the sphere around it.
+    struct Pair {
+        using Two = std::array<float, 2>;
+        std::array<Two, 3> center{}, axis{};
+        Two radius_squared{}, cos_normals{}, sin_normals{}, cos_falloff{}, power{};
+        std::array<int, 2> two_sided{}; ///< -1 or 0, as lanes have it
 
-        float importance(const LightReceiver& at) const;
+        void set(std::size_t i, const LightGroup& group);
+        /// Upper bounds, up to a common factor, of what the groups give the receiver.
+        Two importance(const LightReceiver& at) const;
+    };
+    /// 128 bytes: two cache lines.
+    struct alignas(64) Node {
+        Pair children;
+        std::uint32_t second = 0; ///< second child (the first follows its parent); in a leaf, the light
+        bool is_leaf = false;
     };
     struct Item {
         LightGroup group;
@@ -69,10 +73,14 @@ class LightTree {
     };
 
     LightGroup build(std::span<Item> items, std::uint64_t trail, int depth);
-    void set_node(std::size_t index, const LightGroup& group);
+    /// A lone light may be out of the receiver's sight, too.
+    bool is_unlit_by_all(const LightReceiver& at) const {
+        return nodes_[0].is_leaf && all_.importance(at)[0] == 0;
+    }
 
     static constexpr std::uint64_t not_in_tree = ~std::uint64_t{0};
     std::vector<Node> nodes_;
+    Pair all_; ///< of both, all lights
     /// Of each light, which child to take at each level, lowest bit first.
     std::vector<std::uint64_t> trails_;
 };
