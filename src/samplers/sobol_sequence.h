@@ -16,6 +16,12 @@ constexpr std::uint32_t reverse_bits(std::uint32_t v) {
     v = ((v >> 4) & 0x0f0f0f0fu) | ((v & 0x0f0f0f0fu) << 4);
     return __builtin_bswap32(v);
 }
+constexpr std::uint64_t reverse_bits(std::uint64_t v) {
+    v = ((v >> 1) & 0x5555555555555555u) | ((v & 0x5555555555555555u) << 1);
+    v = ((v >> 2) & 0x3333333333333333u) | ((v & 0x3333333333333333u) << 2);
+    v = ((v >> 4) & 0x0f0f0f0f0f0f0f0fu) | ((v & 0x0f0f0f0f0f0f0f0fu) << 4);
+    return __builtin_bswap64(v);
+}
 
 /// The second dimension, reversed, in 64 digits: its matrix is Pascal's triangle modulo 2, digit i being the
 /// sum of C(j, i) over the set bits j. By Lucas' theorem that splits into one step a bit of j.
@@ -66,10 +72,16 @@ inline float randomized_float(Randomization r, std::uint32_t reversed, std::uint
 
 /// The first two dimensions' pair.
 inline Vec2 sobol_pair(Randomization r, std::uint64_t index, std::uint64_t seeds) {
-    return {randomized_float(r, static_cast<std::uint32_t>(sobol_first(index)),
-                             static_cast<std::uint32_t>(seeds)),
-            randomized_float(r, static_cast<std::uint32_t>(sobol_second(index)),
-                             static_cast<std::uint32_t>(seeds >> 32))};
+    const auto first = static_cast<std::uint32_t>(sobol_first(index));
+    const auto second = static_cast<std::uint32_t>(sobol_second(index));
+    const auto seed1 = static_cast<std::uint32_t>(seeds), seed2 = static_cast<std::uint32_t>(seeds >> 32);
+    if (r != Randomization::fastowen)
+        return {randomized_float(r, first, seed1), randomized_float(r, second, seed2)};
+    // Both are reversed at once, and so change places.
+    const std::uint64_t both = hash_owen(second, seed2) | (std::uint64_t{hash_owen(first, seed1)} << 32);
+    const std::uint64_t reversed = reverse_bits(both);
+    return {unit_float(static_cast<std::uint32_t>(reversed)),
+            unit_float(static_cast<std::uint32_t>(reversed >> 32))};
 }
 
 /// The matrices of all dimensions, from Joe and Kuo's direction numbers (2008).

@@ -22,18 +22,16 @@ constexpr std::uint64_t morton(Vec2i p) {
     return spread_bits(static_cast<std::uint32_t>(p.x)) | (spread_bits(static_cast<std::uint32_t>(p.y)) << 1);
 }
 
-// The 24 orders of four things, each in a byte: bits 2 i and 2 i + 1 say where i goes.
-constexpr std::array<std::uint8_t, 24> make_orders() {
-    std::array<std::uint8_t, 24> orders{};
-    std::size_t n = 0;
-    for (unsigned a = 0; a < 4; ++a)
-        for (unsigned b = 0; b < 4; ++b)
-            for (unsigned c = 0; c < 4; ++c)
-                if (a != b && a != c && b != c)
-                    orders[n++] = static_cast<std::uint8_t>(a | (b << 2) | (c << 4) | ((6 - a - b - c) << 6));
-    return orders;
+// Nested scrambling of a number's digits, from bit 0 on: each bit is flipped or not as the bits before it
+// say (Laine and Karras 2011, in 64 bits). Even factors carry only upwards.
+constexpr std::uint64_t scramble(std::uint64_t v, std::uint64_t seed) {
+    v ^= v * 0x9e6c63d0676a9a98u;
+    v += seed;
+    v *= (seed >> 32) | 1;
+    v ^= v * 0xd24d8ec38bbb4b5cu;
+    v ^= v * 0x6f9f5b1aa2b6c2aau;
+    return v;
 }
-constexpr std::array<std::uint8_t, 24> orders_of_four = make_orders();
 
 class ZSobolSampler final : public RandomizedSobol {
   public:
@@ -46,7 +44,7 @@ class ZSobolSampler final : public RandomizedSobol {
 
     SampleState start(Vec2i pixel, std::uint32_t sample) const override {
         std::uint32_t within = sample & ((1u << log2_samples_) - 1);
-        return {pixel, sample, 0, (morton(pixel) << log2_samples_) | within};
+        return {pixel, sample, 0, reverse_bits((morton(pixel) << log2_samples_) | within)};
     }
     float next1(SampleState& state) const override {
         std::uint64_t key = dimension_key(state);
@@ -63,7 +61,10 @@ class ZSobolSampler final : public RandomizedSobol {
         CountedSampler::prepare(resolution, samples_per_pixel, seed_of_render);
         log2_samples_ = log2_ceil(samples_per_pixel);
         int levels = log2_ceil(std::max({resolution.x, resolution.y, 1}));
-        end_ = std::min(2 * levels + log2_samples_, 60);
+        const int end = std::min(2 * levels + log2_samples_, 62);
+        used_ = (std::uint64_t{1} << end) - 1;
+        digits_ = 0;
+        for (int bit = end - 1; bit > 0; bit -= 2) digits_ |= std::uint64_t{1} << (63 - bit);
     }
 
   private:
@@ -71,36 +72,22 @@ class ZSobolSampler final : public RandomizedSobol {
     std::uint64_t dimension_key(const SampleState& state) const {
         return sub_key(seed_, state.dimension + (std::uint64_t{state.sample >> log2_samples_} << 32));
     }
-    // The index with each base-4 digit replaced according to an order that the digits above it choose. One
-    // hash serves two digits: it holds an order for the upper one, and for the lower one an order for each
-    // value of the upper. A count that is no power of four leaves one binary digit at the end.
+    // The index, given with its highest bit first, with each base-4 digit replaced according to an order that
+    // the digits above it choose. Any order of four is a choice of pairs (which of the digit's bits, or their
+    // sum, tells the pairs apart), and then the order of the pairs and within each, as binary scrambling
+    // gives it. A count that is no power of four leaves one binary digit at the end.
     std::uint64_t shuffled(std::uint64_t index, std::uint64_t key) const {
-        const int odd = log2_samples_ & 1;
-        std::uint64_t result = odd ? (index ^ mix_bits((index >> 1) ^ key)) & 1 : 0;
-        for (int shift = odd; shift < end_; shift += 4) {
-            const std::uint64_t above = shift + 4 < 64 ? index >> (shift + 4) : 0;
-            const std::uint64_t h = node_hash(above ^ key, shift);
-            const std::uint64_t upper = (index >> (shift + 2)) & 3, lower = (index >> shift) & 3;
-            result |= reordered(h, upper) << (shift + 2);
-            result |= reordered(h >> (12 + 12 * upper), lower) << shift;
-        }
-        return result;
-    }
-    // mix_bits less what a key that is mixed already makes superfluous.
-    static std::uint64_t node_hash(std::uint64_t v, int level) {
-        v = (v + static_cast<std::uint64_t>(level)) * 0xbf58476d1ce4e5b9u;
-        v ^= v >> 32;
-        v *= 0x94d049bb133111ebu;
-        return v ^ (v >> 29);
-    }
-    // Where the order that the lowest 12 bits choose puts a digit.
-    static std::uint64_t reordered(std::uint64_t bits, std::uint64_t digit) {
-        const unsigned order = orders_of_four[((bits & 0xfff) * 24) >> 12];
-        return (order >> (2 * digit)) & 3;
+        const std::uint64_t choice = scramble(index, std::rotl(key, 32));
+        const std::uint64_t swaps = (index ^ (index >> 1)) & (choice << 2) & digits_;
+        index ^= swaps | (swaps << 1);
+        index ^= (index >> 1) & (choice << 1) & digits_;
+        return reverse_bits(scramble(index, key)) & used_;
     }
 
     int log2_samples_ = 4;
-    int end_ = 4; ///< bits above this are 0 in every index
+    std::uint64_t used_ = 15; ///< bits that indices have
+    std::uint64_t digits_ = std::uint64_t{5}
+                            << 60; ///< the upper bit of each base-4 digit, with the highest bit first
 };
 
 } // namespace
