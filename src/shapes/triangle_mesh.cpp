@@ -21,6 +21,11 @@ V weigh(const std::vector<V>& values, const int* corners, Vec3d b) {
            at(2) * static_cast<float>(b.z);
 }
 
+Vec3d weigh_exactly(const std::vector<Vec3>& values, const int* corners, Vec3d b) {
+    auto at = [&](int i) { return Vec3d(values[static_cast<std::size_t>(corners[i])]); };
+    return at(0) * b.x + at(1) * b.y + at(2) * b.z;
+}
+
 Vec3d weights_of(const Intersection& met) {
     double u = static_cast<double>(met.u), v = static_cast<double>(met.v);
     return {1 - u - v, u, v};
@@ -70,7 +75,7 @@ Vec3d TriangleMesh::face_normal(std::uint32_t triangle) const {
 }
 
 Vec3d TriangleMesh::vertex_normal(std::uint32_t triangle, Vec3d b) const {
-    return N.empty() ? Vec3d{} : Vec3d(weigh(N, corner_indices(triangle), b));
+    return N.empty() ? Vec3d{} : weigh_exactly(N, corner_indices(triangle), b);
 }
 
 Bounds3 TriangleMesh::bounds(std::uint32_t triangle) const {
