@@ -13,6 +13,7 @@ namespace alhazen {
 class TextureSet;  // textures/texture_set.h
 struct TextureUse; // textures/texture_set.h
 class MaterialSet; // materials/material_set.h
+class SdfSet;      // sdf/sdf_set.h
 
 /// Passed by reference through the building of a scene. Which of the later members are set is said by the
 /// family.
@@ -25,6 +26,7 @@ struct BuildContext {
     /// Of the texture being built: what its colours mean, and the images read so far. Set by TextureSet.
     const TextureUse* texture_use = nullptr;
     const MeshReader* mesh_reader = nullptr; ///< reads mesh files: shapes
+    const SdfSet* sdfs = nullptr;            ///< sdfs and shapes
 
     /// Of the node being built: shapes, lights, textures, cameras.
     Transform world_from_node = {};

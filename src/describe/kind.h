@@ -56,6 +56,7 @@ Kind<Family> make_kind(std::string name) {
                            context.textures,
                            context.materials,
                            context.texture_use};
+        trial.sdfs = context.sdfs;
         T object;
         return read_field(object, parameter, trial) && found.error_count() == 0;
     };

@@ -86,6 +86,7 @@ struct SceneDescription {
     float time_start = 0, time_end = 1; ///< when the two ends of Motion hold
 
     std::vector<TextureNode> textures; ///< a texture refers only to textures before it
+    std::vector<TextureNode> sdfs;     ///< signed distance fields, as TextureNode: node and placement
     std::vector<Node> materials;       ///< anonymous and named ones together
     std::vector<Node> area_lights;
     std::vector<TextureNode> media; ///< as TextureNode: node and placement

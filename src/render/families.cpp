@@ -9,6 +9,7 @@
 #include "materials/material.h"
 #include "render/accelerator.h"
 #include "samplers/sampler.h"
+#include "sdf/sdf.h"
 #include "shapes/shape.h"
 #include "textures/texture_set.h"
 
@@ -40,6 +41,9 @@ const std::vector<FamilyInfo>& families() {
         {"accelerator", "Accelerator", "How the scene is arranged so that rays find what they meet.",
          docs_of(&accelerator_kinds)},
         {"shape", "Shape", "Surfaces.", docs_of(&shape_kinds)},
+        {"sdf", "Sdf \"name\"",
+         "Signed distance fields: bodies, and operators that make bodies of others, for Shape \"sdf\".",
+         docs_of(&sdf_kinds)},
         {"material", "Material", "What surfaces do to light.", docs_of(&material_kinds)},
         {"float-texture", "Texture \"name\" \"float\"", "Numbers that vary over surfaces.",
          docs_of(&float_texture_kinds)},

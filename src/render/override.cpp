@@ -58,6 +58,7 @@ Target find_target(SceneDescription& scene, const std::string& path) {
             if (&t.node == node) is_spectrum = t.is_spectrum;
         return {node, is_spectrum ? "spectrum-texture" : "float-texture"};
     }
+    if (family == "sdf") return {find_named(scene.sdfs, name, plain), family};
     if (family == "shape") return {find_named(scene.world.shapes, name, plain), family};
     return {};
 }
@@ -138,10 +139,11 @@ void apply_override(SceneDescription& scene, const std::string& text, Messages& 
 
     Target target = find_target(scene, path);
     if (!target.node)
-        return fail(fmt::format(
-            "the scene has no \"{}\"; one can set integrator, camera, film, filter, sampler, "
-            "accelerator, material.NAME, texture.NAME, light.NUMBER, area-light.NUMBER, shape.NUMBER",
-            path));
+        return fail(
+            fmt::format("the scene has no \"{}\"; one can set integrator, camera, film, filter, sampler, "
+                        "accelerator, material.NAME, texture.NAME, sdf.NAME, light.NUMBER, "
+                        "area-light.NUMBER, shape.NUMBER",
+                        path));
     if (target.node->type.empty()) target.node->type = default_type(target.family);
     auto doc = find_doc(target.family, target.node->type);
     if (!doc) return; // the unknown type is reported when the scene is built

@@ -6,6 +6,7 @@
 #include "formats/ply.h"
 #include "render/accelerator.h"
 #include "render/build_scene.h"
+#include "sdf/sdf_set.h"
 
 namespace alhazen {
 
@@ -169,6 +170,8 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     description.materials.push_back(fallback);
     world->textures.build(description.textures, context);
     context.textures = &world->textures;
+    SdfSet sdfs;
+    sdfs.build(description.sdfs, context);
     world->materials.build(description.materials, context);
     context.materials = &world->materials;
     for (const TextureNode& medium : description.media)

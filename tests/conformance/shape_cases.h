@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "describe/mesh_file.h"
 #include "shapes/shape.h"
+#include "tests/support/sdf_world.h"
 
 namespace alhazen::shape_cases {
 
@@ -61,6 +62,7 @@ inline Case make_case(const Kind<Shape>& kind, const Example& example, const Pla
     Messages messages;
     BuildContext context{.messages = messages};
     context.mesh_reader = &reader;
+    context.sdfs = &testing_support::example_sdfs();
     context.world_from_node = c.world_from_object;
     context.reverse_orientation = place.reverse;
     c.shape = kind.make(c.node, context);

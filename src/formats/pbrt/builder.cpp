@@ -233,6 +233,15 @@ void PbrtBuilder::texture(Node node, const std::string& value_type, Place place)
     scene_.textures.push_back({std::move(node), is_spectrum, scope_.state.transform});
 }
 
+void PbrtBuilder::sdf(Node node, Place place) {
+    if (!check_world("Sdf", place)) return;
+    if (!sdf_names_.insert(node.name).second) {
+        messages_.add_error(place, fmt::format("sdf \"{}\" is defined twice", printable(node.name)));
+        return;
+    }
+    scene_.sdfs.push_back({std::move(node), false, scope_.state.transform});
+}
+
 void PbrtBuilder::object_begin(std::string name, Place place) {
     if (!check_world("ObjectBegin", place)) return;
     scope_.open.push_back({OpenBlock::Kind::object, place, "ObjectBegin", scope_.state});

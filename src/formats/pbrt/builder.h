@@ -68,6 +68,7 @@ class PbrtBuilder {
     void make_named_material(Node node, Place place);
     void make_named_medium(Node node, Place place);
     void texture(Node node, const std::string& value_type, Place place);
+    void sdf(Node node, Place place);
     void object_begin(std::string name, Place place);
     void object_end(Place place);
     void object_instance(std::string name, Place place);
@@ -106,7 +107,7 @@ class PbrtBuilder {
     bool warned_transform_blocks_ = false;
     std::optional<ObjectNode> object_; ///< the one being defined
     std::set<std::string, std::less<>> object_names_, material_names_, medium_names_, float_textures_,
-        spectrum_textures_;
+        spectrum_textures_, sdf_names_;
     /// What shapes, lights and cameras refer to, and where it was first named.
     std::map<std::string, Place, std::less<>> used_materials_, used_media_;
 };

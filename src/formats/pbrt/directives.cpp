@@ -64,6 +64,7 @@ const std::vector<DirectiveTable::Entry> DirectiveTable::entries{
          auto v = p.numbers<3>("Scale");
          b.scale({v[0], v[1], v[2]}, std::move(at));
      }},
+    {"Sdf", [](P& p, B&, Place at) { p.sdf(std::move(at)); }},
     {"Shape", with_node<&B::shape>},
     {"Texture", [](P& p, B&, Place at) { p.texture(std::move(at)); }},
     {"Transform", [](P& p, B& b, Place at) { b.transform(p.matrix("Transform"), std::move(at)); }},

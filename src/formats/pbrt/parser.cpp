@@ -139,6 +139,13 @@ void PbrtParser::texture(Place place) {
     builder_.texture(std::move(texture), value_type, std::move(place));
 }
 
+void PbrtParser::sdf(Place place) {
+    std::string name = string("an sdf's name");
+    Node sdf = node(place);
+    sdf.name = std::move(name);
+    builder_.sdf(std::move(sdf), std::move(place));
+}
+
 void PbrtParser::option(Place place) {
     std::string name = string("an option's name");
     // pbrt's manual writes the type before the name, its scenes do not.

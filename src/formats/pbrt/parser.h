@@ -48,6 +48,7 @@ class PbrtParser {
     Node node(const Place& place, bool rgb_lists = false);
     void medium_interface(Place place);
     void texture(Place place);
+    void sdf(Place place);
     void option(Place place);
 
     PbrtBuilder& builder_;
