@@ -45,6 +45,10 @@ std::string unknown_optimiser(std::string_view name) {
 
 std::optional<AccelChoice> parse_accel(std::string_view text, std::string& error) {
     AccelChoice choice;
+    if (text == "sdf") {
+        choice.distance_field = usual_distance_field;
+        return choice;
+    }
     std::size_t slash = text.find('/');
     std::string_view builder = text.substr(0, slash);
     std::string_view walk = slash == std::string_view::npos ? std::string_view{} : text.substr(slash + 1);

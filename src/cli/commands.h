@@ -24,6 +24,7 @@ void add_accel_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_diff_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
+void add_sdf_command(CLI::App& app, Action& action);
 void add_help_command(CLI::App& app, Action& action);
 
 } // namespace alhazen

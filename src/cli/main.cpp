@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     add_convert_command(app, action);
     add_diff_command(app, action);
     add_compare_command(app, action);
+    add_sdf_command(app, action);
     add_help_command(app, action);
     if (argc == 1) {
         fmt::print("{}", app.help());

@@ -77,7 +77,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option_function<std::string>(
             "--accel", [&s](const std::string& text) { read_accel(text, s); },
-            "acceleration structure, e.g. lbvh/stackless (alhazen help accelerator)")
+            "acceleration structure, e.g. lbvh/stackless; sdf is approximate (alhazen help accelerator)")
         ->type_name("BUILDER/WALK");
     command.add_option("--stack-entries", s.stack_entries, "of the walk with a short stack")
         ->check(CLI::Range(1, 64))

@@ -6,6 +6,7 @@
 #include "base/messages.h"
 #include "base/transform.h"
 #include "color/wavelengths.h"
+#include "describe/grid_file.h"
 #include "describe/mesh_file.h"
 
 namespace alhazen {
@@ -26,6 +27,7 @@ struct BuildContext {
     /// Of the texture being built: what its colours mean, and the images read so far. Set by TextureSet.
     const TextureUse* texture_use = nullptr;
     const MeshReader* mesh_reader = nullptr; ///< reads mesh files: shapes
+    const GridReader* grid_reader = nullptr; ///< reads grid files: shapes
     const SdfSet* sdfs = nullptr;            ///< sdfs and shapes
 
     /// Of the node being built: shapes, lights, textures, cameras.

@@ -53,8 +53,9 @@ class PathContext {
     auto closest(const Ray& ray) {
         // The first ray of a path comes from the camera.
         ++(first_ray_ ? counts_.camera : counts_.bounce);
+        const DistanceScene* approximation = first_ray_ ? nullptr : scene.approximation();
         first_ray_ = false;
-        return Closest{*this, ray};
+        return Closest{*this, ray, approximation};
     }
     /// An awaitable that gives true when nothing blocks the ray before its tmax.
     auto visible(const Ray& ray) {
@@ -66,14 +67,16 @@ class PathContext {
     struct Closest {
         PathContext& path;
         const Ray& ray;
+        const DistanceScene* approximation; ///< asked instead of the scene, when there is one
         std::uint32_t place = 0;
 
-        bool await_ready() const noexcept { return !path.queue_; }
+        bool await_ready() const noexcept { return approximation || !path.queue_; }
         void await_suspend(std::coroutine_handle<> waiting) {
             place = path.queue_->add_closest(ray, waiting, path.number_);
         }
         // The hit is made here, where it will stay.
         std::optional<Hit> await_resume() const {
+            if (approximation) return approximation->closest(ray);
             return path.queue_ ? Scene::surface(path.queue_->found(place)) : path.scene.closest(ray);
         }
     };
@@ -82,11 +85,13 @@ class PathContext {
         const Ray& ray;
         std::uint32_t place = 0;
 
-        bool await_ready() const noexcept { return !path.queue_; }
+        bool await_ready() const noexcept { return path.scene.approximation() || !path.queue_; }
         void await_suspend(std::coroutine_handle<> waiting) {
             place = path.queue_->add_shadow(ray, waiting, path.number_);
         }
         bool await_resume() const {
+            if (const DistanceScene* approximation = path.scene.approximation())
+                return approximation->visible(ray);
             return path.queue_ ? path.queue_->visible(place) : path.scene.visible(ray);
         }
     };

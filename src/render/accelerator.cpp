@@ -1,4 +1,4 @@
-/// pbrt's two accelerators by name. Their parameters are about pbrt's own trees: they are read and have no
+/// pbrt's two accelerators by name, whose parameters are about pbrt's own trees: they are read and have no
 /// effect.
 #include "render/accelerator.h"
 
@@ -42,6 +42,26 @@ struct KdTreeAccelerator final : Accelerator {
     void finish(const Node& node, BuildContext& context) { choose(node, context); }
 };
 
+struct SdfAccelerator final : Accelerator {
+    int resolution = usual_distance_field;
+
+    static void describe(Fields<SdfAccelerator>& f) {
+        f.about(
+            "Approximate: rays from the camera are traced exactly, all others (shadows, bounces, ambient "
+            "occlusion) through one distance field of the whole scene. Shadows lose details and contacts "
+            "that are smaller than a cell, and reflections show the field's coarse shapes. For previews of "
+            "scenes of triangles; other shapes are an error.");
+        f.field("resolution", &SdfAccelerator::resolution, "cells along the longest side of the scene")
+            .in(8, 1024);
+        describe_common(f);
+        f.example("coarse", {make_integer("resolution", 64)});
+    }
+    void finish(const Node& node, BuildContext& context) {
+        choose(node, context);
+        choice.distance_field = resolution;
+    }
+};
+
 // Where the scene says it: the parameter's place, or the node's.
 const Place& place_of(const Node& node, std::string_view parameter) {
     const Parameter* p = node.find(parameter);
@@ -65,6 +85,10 @@ void Accelerator::choose(const Node& node, BuildContext& context) {
 
 Kind<Accelerator> bvh_accelerator() {
     return make_kind<Accelerator, BvhAccelerator>("bvh");
+}
+
+Kind<Accelerator> sdf_accelerator() {
+    return make_kind<Accelerator, SdfAccelerator>("sdf");
 }
 
 Kind<Accelerator> kdtree_accelerator() {

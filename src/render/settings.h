@@ -20,7 +20,7 @@ struct RenderSettings {
     std::string integrator;     ///< replaces the scene's, which keeps the parameters both know
     std::string camera;         ///< by name
     std::optional<std::uint64_t> seed;
-    std::optional<AccelChoice> accel; ///< does not change the image
+    std::optional<AccelChoice> accel; ///< does not change the image, except for "sdf"
     std::optional<int> stack_entries; ///< of the walk with a short stack (1 ... 64)
     int threads = 0;                  ///< 0: all
     std::optional<ColorMode> color;   ///< default: spectral, but rgb for integrators that are defined in it

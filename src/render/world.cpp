@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/threads.h"
+#include "formats/grids.h"
 #include "formats/ply.h"
 #include "render/accelerator.h"
 #include "render/build_scene.h"
@@ -109,6 +110,14 @@ AccelChoice choose_accel(const SceneDescription& description, const RenderSettin
     return choice;
 }
 
+void approximate(Scene& scene, int cells, const Place& place, Messages& messages) {
+    try {
+        scene.approximate(cells);
+    } catch (const std::runtime_error& e) {
+        messages.add_error(place, e.what());
+    }
+}
+
 void choose_color_mode(World& world, const RenderSettings& settings, Messages& messages) {
     if (world.integrator && world.integrator->works_in_rgb()) {
         world.mode = ColorMode::rgb;
@@ -135,6 +144,8 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     BuildContext context{messages};
     context.base_folder = description.base_folder;
     context.mesh_reader = &mesh_reader;
+    static const GridReader grid_reader = &read_grid;
+    context.grid_reader = &grid_reader;
 
     world->integrator = integrator_kinds().make(description.integrator, context, "path");
     choose_color_mode(*world, settings, messages);
@@ -176,9 +187,11 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     context.materials = &world->materials;
     for (const TextureNode& medium : description.media)
         messages.add_unsupported(medium.node.place, "participating media are not supported yet", "vacuum");
-    world->scene =
-        build_scene(description, world->materials, choose_accel(description, settings, context), context);
+    AccelChoice accel = choose_accel(description, settings, context);
+    world->scene = build_scene(description, world->materials, accel, context);
     world->textures.forget_images();
+    if (world->scene && accel.distance_field > 0)
+        approximate(*world->scene, accel.distance_field, description.accelerator.place, messages);
     messages.throw_if_errors();
     world->scene->set_light_chooser(world->integrator->light_sampler());
     world->integrator->prepare(*world->scene);

@@ -9,6 +9,7 @@
 #include "base/hit.h"
 #include "lights/light_chooser.h"
 #include "materials/material.h"
+#include "scene/distance_scene.h"
 #include "scene/object.h"
 
 namespace alhazen {
@@ -51,6 +52,12 @@ class Scene {
         return chooser_->probability(at, light);
     }
 
+    /// From now on all rays but those from the camera are answered by a global distance field of so many
+    /// cells along the scene's longest side. Throws std::runtime_error as DistanceScene does.
+    void approximate(int cells) { approximation_ = std::make_unique<DistanceScene>(*root_, cells); }
+    /// nullptr when every ray is traced exactly.
+    const DistanceScene* approximation() const { return approximation_.get(); }
+
     /// What is in the scene itself, instances among it.
     const Object& root() const { return *root_; }
     /// Builds another structure for each object; for measurements. Nobody may be asking meanwhile.
@@ -65,6 +72,7 @@ class Scene {
     const Object* root_;
     std::vector<const Light*> lights_, infinite_;
     std::unique_ptr<LightChooser> chooser_;
+    std::unique_ptr<DistanceScene> approximation_;
     Bounds3 bounds_;
 };
 

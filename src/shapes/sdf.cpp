@@ -5,6 +5,7 @@
 #include "sdf/tessellate.h"
 #include "sdf/trace.h"
 #include "shapes/placement.h"
+#include "shapes/projected_uv.h"
 #include "shapes/shape.h"
 #include "shapes/triangle_points.h"
 
@@ -78,9 +79,9 @@ struct SdfShape final : Shape {
                       Vec3((abs(Vec3d(ray.o)) + abs(Vec3d(ray.d)) * t) * 4e-15);
         hit.wo = Vec3(normalize(Vec3d(-ray.d)));
         hit.ng = hit.ns = placement_.normal(local.n);
-        hit.dpdu = Vec3(placement_.vector(local.dpdu));
-        hit.dpdv = Vec3(placement_.vector(local.dpdv));
-        hit.uv = local.uv;
+        hit.dpdu = Vec3(placement_.vector(local.uv.dpdu));
+        hit.dpdv = Vec3(placement_.vector(local.uv.dpdv));
+        hit.uv = local.uv.uv;
         hit.t = met.t;
         hit.time = ray.time;
         hit.primitive = primitive;
@@ -94,15 +95,15 @@ struct SdfShape final : Shape {
         Vec3d on_surface = move_to_surface(*field.node, *p, extent_ / 16);
         Local local = local_at(on_surface, {0, 0, 1});
         return {Vec3(placement_.point(on_surface)), placement_.point_error(on_surface) + error_of(local),
-                placement_.normal(local.n), local.uv, 1 / points().area()};
+                placement_.normal(local.n), local.uv.uv, 1 / points().area()};
     }
 
   private:
     /// The surface around a point of it, in object space.
     struct Local {
-        Vec3d n, dpdu, dpdv;
-        double steepness;
-        Vec2 uv;
+        Vec3d n;
+        double steepness = 0;
+        ProjectedUv uv;
     };
 
     // Where the line is within the box.
@@ -126,14 +127,7 @@ struct SdfShape final : Shape {
         Vec3d g = field->value(dual_point(p)).d;
         local.steepness = length(g);
         local.n = local.steepness > 1e-9 ? g * (1 / local.steepness) : otherwise;
-        int k = max_dimension(abs(local.n)), i = (k + 1) % 3, j = (k + 2) % 3;
-        double along = local.n[k] < 0 ? -extent_ : extent_;
-        local.dpdu[i] = along;
-        local.dpdu[k] = -along * local.n[i] / local.n[k];
-        local.dpdv[j] = extent_;
-        local.dpdv[k] = -extent_ * local.n[j] / local.n[k];
-        Vec3d from = along > 0 ? p - box_.lo : box_.hi - p;
-        local.uv = {static_cast<float>(from[i] / extent_), static_cast<float>((p[j] - box_.lo[j]) / extent_)};
+        local.uv = project_uv(p, local.n, box_);
         return local;
     }
     // What the field's own noise may move the surface by.

@@ -63,6 +63,8 @@ inline Case make_case(const Kind<Shape>& kind, const Example& example, const Pla
     BuildContext context{.messages = messages};
     context.mesh_reader = &reader;
     context.sdfs = &testing_support::example_sdfs();
+    GridReader grid_reader = [](const auto&, const auto&) { return testing_support::example_grid(); };
+    context.grid_reader = &grid_reader;
     context.world_from_node = c.world_from_object;
     context.reverse_orientation = place.reverse;
     c.shape = kind.make(c.node, context);

@@ -1,0 +1,135 @@
+/// alhazen sdf: a mesh becomes a grid of signed distances.
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/threads.h"
+#include "cli/commands.h"
+#include "cli/terminal.h"
+#include "formats/grids.h"
+#include "formats/ply.h"
+#include "sdf/mesh_grid.h"
+
+namespace alhazen {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+extern "C" void on_sdf_interrupt(int) {
+    interrupted = true;
+}
+
+struct SdfOptions {
+    std::string mesh, output;
+    MeshGridOptions grid;
+    int threads = 0;
+    bool quiet = false;
+};
+
+// Says what is wrong with the output before the work rather than after it.
+void check_output(const std::string& file) {
+    std::vector<std::string> known = grid_suffixes();
+    std::string suffix = grid_suffix(file);
+    if (suffix == ".nvdb" && !has_nanovdb())
+        throw std::runtime_error(fmt::format("cannot write \"{}\": this program was built without NanoVDB "
+                                             "(package libnanovdb-dev); .vol files work",
+                                             file));
+    if (std::find(known.begin(), known.end(), suffix) == known.end())
+        throw std::runtime_error(
+            fmt::format("cannot write \"{}\": the suffix must be one of {}", file, fmt::join(known, ", ")));
+    std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    if (folder.empty()) folder = ".";
+    if (!std::filesystem::is_directory(folder))
+        throw std::runtime_error(
+            fmt::format("cannot write \"{}\": there is no folder \"{}\"", file, folder.string()));
+    if (access(folder.c_str(), W_OK) != 0)
+        throw std::runtime_error(
+            fmt::format("cannot write \"{}\": no permission in folder \"{}\"", file, folder.string()));
+}
+
+std::vector<Corners> read_triangles(const std::string& file) {
+    try {
+        MeshData mesh = read_ply(file);
+        split_quads(mesh);
+        if (mesh.indices.empty()) throw std::runtime_error("it holds no triangles");
+        std::vector<Corners> triangles;
+        auto corner = [&](std::size_t i) { return mesh.P[static_cast<std::size_t>(mesh.indices[i])]; };
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+            triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});
+        return triangles;
+    } catch (const std::exception& e) {
+        throw std::runtime_error(fmt::format("{}: {}", file, e.what()));
+    }
+}
+
+int run_sdf(SdfOptions& options) {
+    check_output(options.output);
+    bool is_dense = grid_suffix(options.output) == ".vol";
+    if (is_dense) options.grid.is_full = true;
+    bool is_drawn = !options.quiet && stderr_is_terminal();
+    std::signal(SIGINT, on_sdf_interrupt);
+    GridData data;
+    with_threads(options.threads, [&] {
+        MeshDistance mesh(read_triangles(options.mesh));
+        data = sample_mesh(mesh, options.grid, [&](double fraction) {
+            if (is_drawn) {
+                fmt::print(stderr, "\rsampling: {:3.0f} %\x1b[K", 100 * fraction);
+                std::fflush(stderr);
+            }
+            return !interrupted.load();
+        });
+    });
+    std::signal(SIGINT, SIG_DFL);
+    if (is_drawn) fmt::print(stderr, "\r\x1b[K");
+    if (interrupted) {
+        fmt::print(stderr, "alhazen: stopped; nothing is written\n");
+        return exit_interrupted;
+    }
+    try {
+        write_grid(options.output, data);
+    } catch (const std::exception& e) {
+        throw std::runtime_error(fmt::format("cannot write \"{}\": {}", options.output, e.what()));
+    }
+    if (!options.quiet) {
+        Vec3i n = data.hi - data.lo + Vec3i{1, 1, 1};
+        fmt::print("{}: {} x {} x {} samples, {} bricks of 8 x 8 x 8 stored\n", options.output, n.x, n.y, n.z,
+                   data.bricks.size());
+    }
+    return exit_ok;
+}
+
+} // namespace
+
+void add_sdf_command(CLI::App& app, Action& action) {
+    auto options = std::make_shared<SdfOptions>();
+    CLI::App* command = app.add_subcommand("sdf", "make a grid of signed distances of a mesh");
+    command->add_option("MESH", options->mesh, "mesh file (.ply)")->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "grid file: .vol (dense) or .nvdb (sparse, where built with NanoVDB)")
+        ->type_name("FILE")
+        ->required();
+    command
+        ->add_option("--resolution", options->grid.resolution, "cells along the longest side (default 128)")
+        ->check(CLI::Range(4, 2048))
+        ->type_name("N");
+    command->add_option("--band", options->grid.band, "cells on each side of the surface (default 3)")
+        ->check(CLI::Range(2, 64))
+        ->type_name("N");
+    command->add_flag("--full", options->grid.is_full,
+                      "sample everywhere, not in the band only; .vol always is");
+    command->add_option("--threads", options->threads, "how many threads (default: all)")
+        ->check(CLI::Range(0, 4096))
+        ->type_name("N");
+    command->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+    command->callback([options, &action] { action = [options] { return run_sdf(*options); }; });
+}
+
+} // namespace alhazen

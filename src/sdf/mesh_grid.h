@@ -1,0 +1,24 @@
+/// From a mesh to a grid of signed distances.
+#pragma once
+
+#include <functional>
+
+#include "describe/grid_file.h"
+#include "sdf/mesh_distance.h"
+
+namespace alhazen {
+
+struct MeshGridOptions {
+    int resolution = 128; ///< cells along the longest side of the mesh
+    int band = 3;         ///< cells around the surface that are sampled, and margin around the mesh
+    bool is_full = false; ///< everywhere, rather than in the band only
+};
+
+/// Distances at the points of a grid of cubic cells around the mesh, negative inside by the generalised
+/// winding number. progress is called with the fraction done, from one thread at a time; when it returns
+/// false, sampling stops and the result is incomplete. Does not depend on the number of threads. Throws
+/// std::runtime_error when the mesh has no extent.
+GridData sample_mesh(const MeshDistance& mesh, const MeshGridOptions& options,
+                     const std::function<bool(double)>& progress);
+
+} // namespace alhazen

@@ -1,0 +1,95 @@
+/// Accelerator "sdf": what the camera sees is exact, what else there is comes near it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "image/metrics.h"
+#include "tests/support/render_scene.h"
+
+namespace alhazen::testing {
+namespace {
+
+const char* const view = R"(
+Sampler "zsobol" "integer pixelsamples" 64
+Film "rgb" "integer xresolution" 48 "integer yresolution" 36
+LookAt 0 1 -3.4  0 1 0  0 1 0
+Camera "perspective" "float fov" 45
+WorldBegin
+)";
+
+const char* const walls = R"(
+AttributeBegin
+AreaLightSource "diffuse" "rgb L" [ 12 11 9 ]
+Shape "trianglemesh" "point3 P" [ -.4 1.98 -.4  .4 1.98 -.4  .4 1.98 .4  -.4 1.98 .4 ]
+    "integer indices" [ 0 1 2 0 2 3 ]
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ .7 .7 .7 ]
+Shape "trianglemesh" "point3 P" [ -1 0 -1  1 0 -1  1 0 1  -1 0 1  -1 2 -1  1 2 -1  1 2 1  -1 2 1 ]
+    "integer indices" [ 0 1 2 0 2 3  4 6 5 4 7 6  2 6 7 2 7 3 ]
+Material "diffuse" "rgb reflectance" [ .7 .1 .1 ]
+Shape "trianglemesh" "point3 P" [ -1 0 -1  -1 0 1  -1 2 1  -1 2 -1 ] "integer indices" [ 0 1 2 0 2 3 ]
+Material "diffuse" "rgb reflectance" [ .1 .5 .1 ]
+Shape "trianglemesh" "point3 P" [ 1 0 -1  1 0 1  1 2 1  1 2 -1 ] "integer indices" [ 0 2 1 0 3 2 ]
+ObjectBegin "block"
+Material "diffuse" "rgb reflectance" [ .6 .6 .7 ]
+Shape "trianglemesh" "point3 P" [ -1 0 -1  1 0 -1  1 0 1  -1 0 1  -1 2 -1  1 2 -1  1 2 1  -1 2 1 ]
+    "integer indices" [ 0 1 2 0 2 3  4 6 5 4 7 6  2 6 7 2 7 3  0 4 5 0 5 1  1 5 6 1 6 2  0 3 7 0 7 4 ]
+ObjectEnd
+AttributeBegin
+Translate .35 0 .2
+Rotate 20 0 1 0
+Scale .3 .55 .3
+ObjectInstance "block"
+AttributeEnd
+)";
+
+std::string scene(const std::string& integrator, const std::string& accelerator) {
+    return "Integrator " + integrator + "\n" + accelerator + view + walls;
+}
+
+Image rendered(const std::string& integrator, const std::string& accelerator, int threads = 2) {
+    RenderSettings settings;
+    settings.threads = threads;
+    return render_text(scene(integrator, accelerator), settings).image;
+}
+
+const std::string exact, field = "Accelerator \"sdf\" \"integer resolution\" 96";
+
+TEST(DistanceScenes, WhatTheCameraSeesIsExact) {
+    Image a = rendered("\"path\" \"integer maxdepth\" 0", exact);
+    Image b = rendered("\"path\" \"integer maxdepth\" 0", field);
+    auto va = a.values(), vb = b.values();
+    EXPECT_GT(mean_of(a, 0), 0.01);
+    EXPECT_EQ(std::memcmp(va.data(), vb.data(), va.size_bytes()), 0);
+}
+
+TEST(DistanceScenes, LightComesNearTheExactOne) {
+    for (std::string integrator :
+         {"\"path\" \"integer maxdepth\" 3", "\"ambientocclusion\" \"float maxdistance\" 1"}) {
+        SCOPED_TRACE(integrator);
+        Image a = rendered(integrator, exact), b = rendered(integrator, field);
+        double flip = compute_metric(Metric::flip, b, a).value;
+        EXPECT_LT(flip, 0.12);
+        EXPECT_NEAR(mean_of(b, 1) / mean_of(a, 1), 1, 0.1);
+        // And it is not the exact one by mistake.
+        EXPECT_GT(flip, 0.001);
+    }
+}
+
+TEST(DistanceScenes, ThreadsDoNotChangeABit) {
+    Image a = rendered("\"path\"", field, 1), b = rendered("\"path\"", field, 3);
+    auto va = a.values(), vb = b.values();
+    EXPECT_EQ(std::memcmp(va.data(), vb.data(), va.size_bytes()), 0);
+}
+
+TEST(DistanceScenes, OtherShapesAreAnError) {
+    std::string text = scene("\"path\"", field) + "Shape \"sphere\" \"float radius\" .2\n";
+    try {
+        render_text(text);
+        FAIL();
+    } catch (const SceneError& e) {
+        EXPECT_THAT(e.what(), ::testing::HasSubstr("knows triangles only"));
+    }
+}
+
+} // namespace
+} // namespace alhazen::testing

@@ -1,0 +1,105 @@
+/// alhazen sdf, and scenes that show what it made.
+#include <gmock/gmock.h>
+
+#include "formats/grids.h"
+#include "image/codec.h"
+#include "image/metrics.h"
+#include "tests/cli/program.h"
+
+namespace alhazen::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct SdfCommand : ProgramTest {
+    void SetUp() override {
+        ProgramTest::SetUp();
+        // A cube, and a scene that shows it as a mesh or as a grid.
+        std::ofstream(path("cube.ply")) << R"(ply
+format ascii 1.0
+element vertex 8
+property float x
+property float y
+property float z
+element face 6
+property list uchar int vertex_indices
+end_header
+-1 -1 -1
+1 -1 -1
+1 1 -1
+-1 1 -1
+-1 -1 1
+1 -1 1
+1 1 1
+-1 1 1
+4 0 3 2 1
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+)";
+        for (const char* shape :
+             {"plymesh\" \"string filename\" \"cube.ply\"",
+              "sdfgrid\" \"string filename\" \"cube.vol\" \"string normals\" \"analytic\""}) {
+            bool is_mesh = shape[0] == 'p';
+            std::ofstream(path(is_mesh ? "mesh.pbrt" : "grid.pbrt")) << R"(
+Integrator "whitted" "rgb ambient" [ .1 .1 .1 ]
+Sampler "independent" "integer pixelsamples" 1
+Film "rgb" "integer xresolution" 60 "integer yresolution" 40
+LookAt 3 4 -6  0 0 0  0 1 0
+Camera "perspective" "float fov" 35
+WorldBegin
+LightSource "point" "string falloff" "none" "point3 from" [ 5 9 -12 ] "rgb I" [ 1 1 1 ]
+Material "phong" "rgb diffuse" [ .6 .5 .3 ]
+Rotate 25 0 1 0
+Shape ")" << shape << "\n";
+        }
+    }
+};
+
+TEST_F(SdfCommand, MakesAGridThatLooksLikeTheMesh) {
+    Outcome o = alhazen("sdf cube.ply -o cube.vol --resolution 64");
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_THAT(o.out, HasSubstr("71 x 71 x 71 samples"));
+    ASSERT_EQ(alhazen("render mesh.pbrt -o mesh.pfm -q").exit_code, 0);
+    Outcome shown = alhazen("render grid.pbrt -o grid.pfm -q");
+    ASSERT_EQ(shown.exit_code, 0) << shown.err;
+    // The edges are a little rounder.
+    EXPECT_LT(flip(read_image(path("grid.pfm")), read_image(path("mesh.pfm"))).value, 0.03);
+}
+
+TEST_F(SdfCommand, MakesLevelSets) {
+    Outcome o = alhazen("sdf cube.ply -o cube.nvdb --resolution 96");
+    if (!has_nanovdb()) {
+        EXPECT_EQ(o.exit_code, 2);
+        EXPECT_THAT(o.err, HasSubstr("built without NanoVDB"));
+        return;
+    }
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    GridData grid = read_grid(path("cube.nvdb"), "");
+    EXPECT_TRUE(grid.is_level_set);
+    EXPECT_LT(grid.bricks.size(), 13u * 13u * 13u * 7 / 10); // of 103 samples along each axis
+}
+
+TEST_F(SdfCommand, SaysWhatIsWrong) {
+    for (auto [arguments, text] : {std::pair{"none.ply -o a.vol", "none.ply: no such file"},
+                                   {"cube.ply -o a.raw", "the suffix must be one of .vol"},
+                                   {"cube.ply -o none/a.vol", "there is no folder \"none\""},
+                                   {"grid.pbrt -o a.vol", "grid.pbrt: "},
+                                   {"cube.ply", "--output is required"},
+                                   {"cube.ply -o a.vol --resolution 1", "--resolution"}}) {
+        SCOPED_TRACE(arguments);
+        Outcome o = alhazen(std::string("sdf ") + arguments);
+        EXPECT_EQ(o.exit_code, 2);
+        EXPECT_THAT(o.err, HasSubstr(text));
+        EXPECT_FALSE(std::filesystem::exists(path("a.vol")));
+    }
+    Outcome missing = alhazen("render grid.pbrt");
+    EXPECT_EQ(missing.exit_code, 2);
+    EXPECT_THAT(missing.err, HasSubstr("grid.pbrt:11:17"));
+    EXPECT_THAT(missing.err, HasSubstr("grid file \"cube.vol\": no such file"));
+}
+
+} // namespace
+} // namespace alhazen::testing
