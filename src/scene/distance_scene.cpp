@@ -79,50 +79,37 @@ void DistanceScene::sample() {
             Vec3d p = lo_ + Vec3d(Vec3i{x, y, z}) * cell_;
             auto found = mesh.nearest(p, limit);
             std::size_t at = index({x, y, z});
-            distances_[at] = static_cast<float>(found->distance);
+            distances_[at] = static_cast<float>(found->distance / cell_);
             nearest_[at] = found->triangle;
             limit = (found->distance + cell_) * (1 + 1e-9);
         }
     });
 }
 
-double DistanceScene::distance(Vec3d q) const {
-    Vec3i c;
-    Vec3d w;
-    for (int i = 0; i < 3; ++i) {
-        double floor = std::clamp(std::floor(q[i]), 0.0, static_cast<double>(n_[i] - 2));
-        c[i] = static_cast<int>(floor);
-        w[i] = std::clamp(q[i] - floor, 0.0, 1.0);
-    }
-    std::size_t at = index(c), up = static_cast<std::size_t>(n_.x),
-                over = up * static_cast<std::size_t>(n_.y);
-    auto value = [&](std::size_t i) { return static_cast<double>(distances_[i]); };
-    auto along_x = [&](std::size_t i) { return value(i) + (value(i + 1) - value(i)) * w.x; };
-    double a = along_x(at), b = along_x(at + up), c0 = along_x(at + over), d = along_x(at + over + up);
-    double lower = a + (b - a) * w.y, upper = c0 + (d - c0) * w.y;
-    return lower + (upper - lower) * w.z;
+// Of the nearest sample, less the way to it: no surface is nearer.
+double DistanceScene::least_distance(Vec3d q) const {
+    Vec3i node;
+    for (int i = 0; i < 3; ++i) node[i] = std::clamp(static_cast<int>(q[i] + 0.5), 0, n_[i] - 1);
+    return static_cast<double>(distances_[index(node)]) - length(q - Vec3d(node));
 }
 
-// Next to a surface the interpolation of unsigned distances is off by up to half of a cell, so that there the
-// triangles are asked that are nearest to the cell's corners.
+// Next to surfaces the triangles are asked that are nearest to the cell's corners.
 double DistanceScene::refined_distance(Vec3d q) const {
-    constexpr double next_to = 0.9;
-    double rough = distance(q) / cell_;
-    if (rough > next_to) return rough;
     return std::sqrt(nearest_to(lo_ + q * cell_).distance2) / cell_;
 }
 
 DistanceScene::Near DistanceScene::nearest_to(Vec3d p) const {
     Vec3d q = (p - lo_) * (1 / cell_);
     Near best;
-    std::uint32_t last = no_primitive;
+    std::array<std::uint32_t, 8> asked{};
+    std::size_t count = 0;
     for (int i = 0; i < 8; ++i) {
         Vec3i corner;
         for (int k = 0; k < 3; ++k)
             corner[k] = std::clamp(static_cast<int>(std::floor(q[k])) + (i >> k & 1), 0, n_[k] - 1);
         std::uint32_t candidate = nearest_[index(corner)];
-        if (candidate == last) continue;
-        last = candidate;
+        if (std::find(asked.begin(), asked.begin() + count, candidate) != asked.begin() + count) continue;
+        asked[count++] = candidate;
         const Corners& c = corners_[candidate];
         TrianglePoint at = nearest_on_triangle(Vec3d(c.a), Vec3d(c.b), Vec3d(c.c), p);
         double distance2 = length_squared(at.p - p);
@@ -147,14 +134,24 @@ std::optional<double> DistanceScene::march(const Ray& ray, double end) const {
         s = std::max(s, std::min(a, b));
         last = std::min(last, std::max(a, b));
     }
-    constexpr double near = 0.2, least_step = 0.15;
-    // On a surface, mostly.
-    double before = s == 0 ? refined_distance(o) : static_cast<double>(infinity);
+    constexpr double near = 0.2, least_step = 0.15, next_to = 0.5;
+    double before = static_cast<double>(infinity);
+    if (s == 0) { // on a surface, mostly
+        s = 0.25;
+        before = refined_distance(o + d * s);
+    }
     while (s < last) {
-        double here = refined_distance(o + d * s);
-        if (here < near && here < before - 1e-6) return s * cell_ / speed;
-        before = here;
-        s += std::max(here, least_step);
+        Vec3d q = o + d * s;
+        double step = least_distance(q);
+        if (step < next_to) {
+            double here = refined_distance(q);
+            if (here < near && here < before - 1e-6) return s * cell_ / speed;
+            before = here;
+            step = std::max(here, least_step);
+        } else {
+            before = static_cast<double>(infinity);
+        }
+        s += step;
     }
     return std::nullopt;
 }

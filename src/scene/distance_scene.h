@@ -48,8 +48,9 @@ class DistanceScene {
         TrianglePoint at;
     };
     Near nearest_to(Vec3d p) const;
-    double distance(Vec3d grid_point) const;
-    double refined_distance(Vec3d grid_point) const; ///< in cells
+    /// In cells, of a point of the grid: a lower bound, and nearly the distance.
+    double least_distance(Vec3d grid_point) const;
+    double refined_distance(Vec3d grid_point) const;
     std::optional<double> march(const Ray& ray, double end) const;
     Found found_at(const Ray& ray, double t) const;
 
@@ -59,7 +60,7 @@ class DistanceScene {
     Vec3d lo_;
     double cell_ = 1;
     Vec3i n_{0, 0, 0};
-    std::vector<float> distances_;
+    std::vector<float> distances_; ///< in cells
     std::vector<std::uint32_t> nearest_;
 };
 
