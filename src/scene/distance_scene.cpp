@@ -86,16 +86,18 @@ void DistanceScene::sample() {
     });
 }
 
-// Of the nearest sample, less the way to it: no surface is nearer.
-double DistanceScene::least_distance(Vec3d q) const {
+std::size_t DistanceScene::nearest_sample(Vec3d q, double& away) const {
     Vec3i node;
     for (int i = 0; i < 3; ++i) node[i] = std::clamp(static_cast<int>(q[i] + 0.5), 0, n_[i] - 1);
-    return static_cast<double>(distances_[index(node)]) - length(q - Vec3d(node));
+    away = length(q - Vec3d(node));
+    return index(node);
 }
 
-// Next to surfaces the triangles are asked that are nearest to the cell's corners.
-double DistanceScene::refined_distance(Vec3d q) const {
-    return std::sqrt(nearest_to(lo_ + q * cell_).distance2) / cell_;
+// To the triangle that is nearest to the nearest sample, which is mostly the nearest here, too.
+double DistanceScene::distance_of_triangle(Vec3d q, std::size_t sample) const {
+    const Corners& c = corners_[nearest_[sample]];
+    Vec3d p = lo_ + q * cell_;
+    return length(nearest_on_triangle(Vec3d(c.a), Vec3d(c.b), Vec3d(c.c), p).p - p) / cell_;
 }
 
 DistanceScene::Near DistanceScene::nearest_to(Vec3d p) const {
@@ -118,8 +120,9 @@ DistanceScene::Near DistanceScene::nearest_to(Vec3d p) const {
     return best;
 }
 
-// Sphere tracing until the field is below a fifth of a cell. It must be falling: a ray that leaves a surface
-// is near it, too.
+// Sphere tracing. No surface is nearer than the nearest sample says, less the way to it; where that is
+// little, its triangle is asked, until it is nearer than a fifth of a cell. The distance must be falling: a
+// ray that leaves a surface is near it, too.
 std::optional<double> DistanceScene::march(const Ray& ray, double end) const {
     double speed = length(Vec3d(ray.d));
     if (corners_.empty() || !is_finite(ray.o) || !is_finite(ray.d) || !(speed > 0)) return std::nullopt;
@@ -135,19 +138,22 @@ std::optional<double> DistanceScene::march(const Ray& ray, double end) const {
         last = std::min(last, std::max(a, b));
     }
     constexpr double near = 0.2, least_step = 0.15, next_to = 0.5;
-    double before = static_cast<double>(infinity);
+    double before = static_cast<double>(infinity), away = 0;
     if (s == 0) { // on a surface, mostly
         s = 0.25;
-        before = refined_distance(o + d * s);
+        std::size_t sample = nearest_sample(o + d * s, away);
+        before = distance_of_triangle(o + d * s, sample);
     }
     while (s < last) {
         Vec3d q = o + d * s;
-        double step = least_distance(q);
+        std::size_t sample = nearest_sample(q, away);
+        double step = static_cast<double>(distances_[sample]) - away;
         if (step < next_to) {
-            double here = refined_distance(q);
+            double here = distance_of_triangle(q, sample);
             if (here < near && here < before - 1e-6) return s * cell_ / speed;
             before = here;
-            step = std::max(here, least_step);
+            // Between what is sure and what is likely.
+            step = std::max(0.5 * (std::max(step, 0.0) + here), least_step);
         } else {
             before = static_cast<double>(infinity);
         }

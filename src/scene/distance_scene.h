@@ -48,9 +48,9 @@ class DistanceScene {
         TrianglePoint at;
     };
     Near nearest_to(Vec3d p) const;
-    /// In cells, of a point of the grid: a lower bound, and nearly the distance.
-    double least_distance(Vec3d grid_point) const;
-    double refined_distance(Vec3d grid_point) const;
+    /// Number of the sample nearest to a point of the grid, and how far away it is, in cells.
+    std::size_t nearest_sample(Vec3d grid_point, double& away) const;
+    double distance_of_triangle(Vec3d grid_point, std::size_t sample) const; ///< in cells
     std::optional<double> march(const Ray& ray, double end) const;
     Found found_at(const Ray& ray, double t) const;
 
