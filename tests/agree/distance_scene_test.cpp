@@ -9,7 +9,7 @@ namespace alhazen::testing {
 namespace {
 
 const char* const view = R"(
-Sampler "zsobol" "integer pixelsamples" 64
+Sampler "zsobol" "integer pixelsamples" 24
 Film "rgb" "integer xresolution" 48 "integer yresolution" 36
 LookAt 0 1 -3.4  0 1 0  0 1 0
 Camera "perspective" "float fov" 45

@@ -71,7 +71,7 @@ TEST(DisplacedSdfs, AreLeftByTheRaysThatTheySend) {
     ASSERT_TRUE(shape) << made.text();
     Rng rng(2);
     int hits = 0;
-    for (int i = 0; i < 5000; ++i) {
+    for (int i = 0; i < 2000; ++i) {
         auto number = [&] { return 2 * rng.uniform() - 1; };
         Vec3 o{4 * number(), 4 * number(), 4 * number()};
         Intersection met;
@@ -92,7 +92,7 @@ TEST(DisplacedSdfs, AreLeftByTheRaysThatTheySend) {
             ASSERT_TRUE(!is_met || again.t > 2e-5f) << again.t;
         }
     }
-    EXPECT_GT(hits, 1000);
+    EXPECT_GT(hits, 500);
 }
 
 TEST(DisplacedSdfs, AreRefusedWhereTheTextureJumps) {
