@@ -128,6 +128,21 @@ void choose_color_mode(World& world, const RenderSettings& settings, Messages& m
     }
 }
 
+void add_sampler(World& world, const SceneDescription& description, const RenderSettings& settings,
+                 BuildContext& context) {
+    world.sampler = sampler_kinds().make(with_default(description.sampler, "zsobol"), context, "zsobol");
+    if (!world.sampler) return;
+    auto samples = [&] {
+        const int own = world.sampler->samples_per_pixel();
+        return world.integrator ? world.integrator->samples_per_pixel(own, settings.spp)
+                                : settings.spp.value_or(own);
+    };
+    world.seed = find_seed(description, settings);
+    world.sampler->prepare(context.film_resolution, samples(), world.seed);
+    // Sequences may come in powers of two, but the picture gets the number of samples that was asked for.
+    world.spp = samples();
+}
+
 } // namespace
 
 std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings,
@@ -163,18 +178,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     }
     world->camera = make_camera(*camera, context);
     world->filter = filter_kinds().make(with_default(description.filter, "gaussian"), context, "gaussian");
-    world->sampler = sampler_kinds().make(with_default(description.sampler, "zsobol"), context, "zsobol");
-    if (world->sampler) {
-        auto samples = [&] {
-            const int own = world->sampler->samples_per_pixel();
-            return world->integrator ? world->integrator->samples_per_pixel(own, settings.spp)
-                                     : settings.spp.value_or(own);
-        };
-        world->seed = find_seed(description, settings);
-        world->sampler->prepare(context.film_resolution, samples(), world->seed);
-        // Sequences may come in powers of two, but the picture gets the number of samples that was asked for.
-        world->spp = samples();
-    }
+    add_sampler(*world, description, settings, context);
 
     Node fallback;
     fallback.type = "diffuse";
