@@ -21,7 +21,9 @@ struct Integrator {
     virtual void prepare(const Scene& /*scene*/) {}
     /// For integrators that make pictures as a whole: the work on this one. nullptr: the picture is made of
     /// radiance().
-    virtual std::unique_ptr<PictureWork> whole_picture(const Picture& /*picture*/) const { return nullptr; }
+    virtual std::unique_ptr<PictureWork> whole_picture(const PictureOrder& /*picture*/) const {
+        return nullptr;
+    }
     /// Samples a pixel, given what the sampler says and what the user has asked for, if anything.
     virtual int samples_per_pixel(int sampler, std::optional<int> asked) const {
         return asked.value_or(sampler);

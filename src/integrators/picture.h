@@ -40,7 +40,7 @@ struct PictureCounts {
 };
 
 /// What is wanted. All must outlive the work.
-struct Picture {
+struct PictureOrder {
     const Scene& scene;
     const Camera& camera;
     Film& film; ///< started; its pixels are to be filled

@@ -26,7 +26,7 @@ namespace {
 /// One picture: rasterised, and each tile shaded as soon as it is there.
 class RasterWork final : public PictureWork {
   public:
-    RasterWork(const Picture& picture, const LocalLights& lights, const LocalShading& shading)
+    RasterWork(const PictureOrder& picture, const LocalLights& lights, const LocalShading& shading)
         : picture_(picture), shading_(picture.camera, lights, shading) {}
 
     PictureCounts run(int, const std::function<void(double)>& progress) override {
@@ -52,7 +52,7 @@ class RasterWork final : public PictureWork {
     }
 
   private:
-    Picture picture_;
+    PictureOrder picture_;
     TileShading shading_;
 };
 
@@ -112,7 +112,7 @@ struct Raster final : Integrator {
                          shadow_maps_ ? &*shadow_maps_ : nullptr);
     }
 
-    std::unique_ptr<PictureWork> whole_picture(const Picture& picture) const override {
+    std::unique_ptr<PictureWork> whole_picture(const PictureOrder& picture) const override {
         if (!picture.camera.projection()) return nullptr;
         return std::make_unique<RasterWork>(picture, *lights_, *shading_);
     }

@@ -32,7 +32,8 @@ class Renderer {
 
     RenderStats run() {
         world_.film->start(world_.mode);
-        Picture picture{*world_.scene, *world_.camera, *world_.film, world_.mode, world_.spp, world_.seed};
+        PictureOrder picture{*world_.scene, *world_.camera, *world_.film,
+                             world_.mode,   world_.spp,     world_.seed};
         if (auto whole = world_.integrator->whole_picture(picture))
             run_whole(*whole);
         else
