@@ -1,4 +1,5 @@
 /// alhazen compare: one scene seen by several integrators, side by side on one sheet.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <set>
@@ -55,12 +56,23 @@ struct View {
     double flip = 0; ///< difference to the last view's image
 };
 
-// What is compared when nobody says what: local light by rasterisation, Whitted's mirrors and glass, and all
-// light.
-std::vector<std::string> usual_ways() {
-    std::vector<std::string> ways;
-    for (const char* name : {"raster", "whitted", "path"})
-        if (integrator_kinds().find(name)) ways.emplace_back(name);
+bool is_of_meshes(const std::vector<ShapeNode>& shapes) {
+    return std::all_of(shapes.begin(), shapes.end(), [](const ShapeNode& s) {
+        return s.node.type == "trianglemesh" || s.node.type == "plymesh";
+    });
+}
+
+// What is compared when nobody says what: local light by rasterisation, Whitted's mirrors and glass, all
+// light, and where every surface is a mesh all light through one distance field.
+std::vector<std::string> usual_ways(const std::string& scene) {
+    std::vector<std::string> ways{"raster", "whitted"};
+    Messages messages;
+    messages.lenient = true;
+    const SceneDescription description = read_scene(scene, messages);
+    bool has_field = is_of_meshes(description.world.shapes) && !description.world.shapes.empty();
+    for (const ObjectNode& object : description.objects) has_field = has_field && is_of_meshes(object.shapes);
+    if (has_field) ways.emplace_back("path:sdf");
+    ways.emplace_back("path");
     return ways;
 }
 
@@ -131,7 +143,7 @@ int run_compare(const CompareOptions& options) {
     if (!options.scene_options.settings.integrator.empty())
         throw std::runtime_error("--integrator names one; compare takes several: --integrators raster,path");
     std::vector<Way> ways;
-    for (const std::string& text : options.ways.empty() ? usual_ways() : options.ways)
+    for (const std::string& text : options.ways.empty() ? usual_ways(options.scene) : options.ways)
         ways.emplace_back(text);
     std::vector<View> views = see_all(options, ways);
     std::vector<Captioned> pictures;
@@ -157,7 +169,7 @@ void add_compare_command(CLI::App& app, Action& action) {
         ->add_option(
             "--integrators", options->ways,
             "which ones, an acceleration structure after a colon if wanted (path:lbvh/stack); the others are "
-            "compared with the last (default: raster,whitted,path)")
+            "compared with the last (default: raster,whitted,path and, for meshes, path:sdf)")
         ->type_name("NAME,...")
         ->expected(1)
         ->take_all()
