@@ -1,14 +1,13 @@
 /// alhazen accel: acceleration structures measured on a scene.
 #include <cstdio>
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/file.h"
 #include "base/threads.h"
 #include "cli/commands.h"
+#include "cli/outputs.h"
 #include "cli/terminal.h"
 #include "formats/format.h"
 #include "lab/report.h"
@@ -62,19 +61,6 @@ std::vector<AccelChoice> choices_of(const AccelOptions& options) {
     return choices;
 }
 
-// Says what is wrong with an output before the measuring rather than after it.
-void check_folder(const std::string& file) {
-    if (file.empty()) return;
-    auto folder = std::filesystem::path(file).parent_path();
-    if (folder.empty()) folder = ".";
-    if (!std::filesystem::is_directory(folder))
-        throw std::runtime_error(
-            fmt::format("cannot write \"{}\": there is no folder \"{}\"", file, folder.string()));
-    if (access(folder.c_str(), W_OK) != 0)
-        throw std::runtime_error(
-            fmt::format("cannot write \"{}\": no permission in folder \"{}\"", file, folder.string()));
-}
-
 void write_output(const std::string& file, const std::string& text) {
     if (file.empty()) return;
     try {
@@ -122,7 +108,8 @@ void print_walks(const LabReport& report) {
 
 int run_accel(AccelOptions& options) {
     std::vector<AccelChoice> choices = choices_of(options);
-    for (const std::string& file : {options.json_file, options.html_file}) check_folder(file);
+    for (const std::string& file : {options.json_file, options.html_file})
+        if (!file.empty()) check_output_folder(file);
     if (!options.html_file.empty()) options.lab.heat_map_pixels = heat_map_pixels;
     Messages messages;
     messages.lenient = options.lenient;

@@ -4,13 +4,12 @@
 #include <csignal>
 #include <cstdio>
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/threads.h"
 #include "cli/commands.h"
+#include "cli/outputs.h"
 #include "cli/terminal.h"
 #include "formats/grids.h"
 #include "formats/ply.h"
@@ -44,14 +43,7 @@ void check_output(const std::string& file) {
     if (std::find(known.begin(), known.end(), suffix) == known.end())
         throw std::runtime_error(
             fmt::format("cannot write \"{}\": the suffix must be one of {}", file, fmt::join(known, ", ")));
-    std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (folder.empty()) folder = ".";
-    if (!std::filesystem::is_directory(folder))
-        throw std::runtime_error(
-            fmt::format("cannot write \"{}\": there is no folder \"{}\"", file, folder.string()));
-    if (access(folder.c_str(), W_OK) != 0)
-        throw std::runtime_error(
-            fmt::format("cannot write \"{}\": no permission in folder \"{}\"", file, folder.string()));
+    check_output_folder(file);
 }
 
 std::vector<Corners> read_triangles(const std::string& file) {
