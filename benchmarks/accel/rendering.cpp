@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "benchmarks/accel/suite.h"
@@ -36,6 +38,13 @@ double samples_per_second(const std::string& file, const Schedule& schedule, int
     return static_cast<double>(pixels.width()) * pixels.height() * stats.samples / seconds;
 }
 
+// "kitchen" of "kitchen/scene.pbrt", "materials" of "scenes/materials.pbrt".
+std::string name_of_scene(const std::string& file) {
+    const std::filesystem::path path(file);
+    const std::string stem = path.stem().string();
+    return stem == "scene" && path.has_parent_path() ? path.parent_path().filename().string() : stem;
+}
+
 } // namespace
 
 Json bench_rendering(const std::string& file, const BenchOptions& options) {
@@ -48,7 +57,7 @@ Json bench_rendering(const std::string& file, const BenchOptions& options) {
     for (std::size_t s = 0; s < std::size(schedules); ++s) {
         std::vector<double> ratios;
         for (std::size_t i = 0; i < rates[s].size(); ++i) ratios.push_back(rates[s][i] / rates[0][i]);
-        records.push_back({{"scene", file},
+        records.push_back({{"scene", name_of_scene(file)},
                            {"schedule", schedules[s].name},
                            {"threads", 2},
                            {"samples_per_s", median_of(rates[s])},

