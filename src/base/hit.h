@@ -7,8 +7,9 @@
 
 namespace alhazen {
 
-struct Material; // materials/material.h
-struct Light;    // lights/light.h
+struct Material;        // materials/material.h
+struct Light;           // lights/light.h
+struct MediumInterface; // media/medium.h
 
 /// A ray's shadow test stops this fraction short of the light, so that the light's own surface does not
 /// count.
@@ -30,6 +31,7 @@ struct Hit {
     std::uint32_t instance = 0;  ///< 0 for the scene's own shapes, else the instance's number + 1
     const Material* material = nullptr;
     const Light* area_light = nullptr;
+    const MediumInterface* media = nullptr; ///< where the surface is a border between media
 
     /// z = ns, x along dpdu: the frame BSDFs live in.
     Frame shading_frame() const { return Frame::from_z_and_tangent(ns, dpdu); }

@@ -8,6 +8,7 @@
 #include "color/color_space.h"
 #include "color/tone.h"
 #include "image/codec.h"
+#include "image/image_colors.h"
 #include "image/metrics.h"
 
 namespace alhazen {
@@ -74,7 +75,7 @@ struct DiffOptions {
 };
 
 int run_diff(const DiffOptions& options) {
-    Image a = load(options.a), b = load(options.b);
+    Image a = in_srgb(load(options.a)), b = in_srgb(load(options.b));
     if (a.size() != b.size())
         throw std::runtime_error(fmt::format("the images differ in size: {} is {} x {}, {} is {} x {}",
                                              options.a, a.width(), a.height(), options.b, b.width(),

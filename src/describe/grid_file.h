@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct GridBrick {
     }
 };
 
-/// Samples of a signed distance field at points of a regular grid. Where no brick is, the value is not known
-/// but far from 0.
+/// Samples at points of a regular grid: of a signed distance field, where the value is not known but far from
+/// 0 where no brick is; or of anything else (a density), which is 0 there.
 struct GridData {
     Vec3i lo, hi;              ///< indices of the first and last samples on each axis
     Matrix4 object_from_index; ///< where the sample with an index stands
@@ -38,6 +39,11 @@ struct GridData {
 inline int brick_origin(int index) {
     return index & ~(GridBrick::size - 1);
 }
+
+/// Thrown when a file has no grid of the wanted name.
+struct NoSuchGrid : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 /// Reads a grid file, and of a file with several grids the one of that name ("": the first of numbers).
 /// Throws std::runtime_error saying what is wrong, without the file's name.

@@ -10,6 +10,7 @@
 
 #include "base/file.h"
 #include "image/formats.h"
+#include "image/image_colors.h"
 
 namespace alhazen {
 
@@ -106,14 +107,9 @@ namespace {
 /// To sRGB, and without the word that it was anything else.
 std::string encode_converted(std::string_view suffix, Image image, const RgbColorSpace& from,
                              WriteOptions options) {
-    if (image.has_rgb()) {
-        const Matrix3 srgb_from_rgb = convert_rgb(from, srgb_space());
-        for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x) image.set_rgb(x, y, srgb_from_rgb * image.rgb(x, y));
-    }
-    image.info.metadata.erase("color_space");
+    image.info.metadata["color_space"] = from.name;
     options.metadata.erase("color_space");
-    return encode_image(suffix, image, options);
+    return encode_image(suffix, in_srgb(std::move(image)), options);
 }
 
 } // namespace

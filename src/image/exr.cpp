@@ -92,6 +92,33 @@ Rect2i to_rect(const Imath::Box2i& box) {
     return {{box.min.x, box.min.y}, {box.max.x + 1, box.max.y + 1}};
 }
 
+/// The space by the file's chromaticities. Those of none that has a name: the colours become sRGB's.
+void set_color_space(const Imf::Header& header, Image& image) {
+    if (!Imf::hasChromaticities(header)) return;
+    const Imf::Chromaticities& c = Imf::chromaticities(header);
+    auto distance = [](Imath::V2f a, Vec2d b) {
+        return std::hypot(static_cast<double>(a.x) - b.x, static_cast<double>(a.y) - b.y);
+    };
+    constexpr double near = 2e-3; // files round what standards say
+    for (const std::string& name : color_space_names()) {
+        const RgbColorSpace& space = *find_color_space(name);
+        if (distance(c.red, space.red) > near || distance(c.green, space.green) > near ||
+            distance(c.blue, space.blue) > near || distance(c.white, space.white) > near)
+            continue;
+        image.info.metadata.erase("color_space");
+        if (&space != &srgb_space()) image.info.metadata["color_space"] = space.name;
+        return;
+    }
+    if (!image.has_rgb()) return;
+    const Imath::M44f to_xyz = Imf::RGBtoXYZ(c, 1);
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const Vec3 rgb = image.rgb(x, y);
+            const Imath::V3f xyz = Imath::V3f(rgb.x, rgb.y, rgb.z) * to_xyz;
+            image.set_rgb(x, y, srgb_space().from_xyz({xyz.x, xyz.y, xyz.z}));
+        }
+}
+
 Image read_pixels(Imf::InputFile& file) {
     const Imf::Header& header = file.header();
     const Imath::Box2i& window = header.dataWindow();
@@ -113,6 +140,7 @@ Image read_pixels(Imf::InputFile& file) {
         if (type != "string" || name == "type" || name == "name") continue;
         image.info.metadata[a.name()] = static_cast<const Imf::StringAttribute&>(a.attribute()).value();
     }
+    set_color_space(header, image);
     return image;
 }
 

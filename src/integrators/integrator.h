@@ -31,6 +31,8 @@ struct Integrator {
 
     /// True for models that are defined in linear RGB.
     virtual bool works_in_rgb() const { return false; }
+    /// True when participating media are seen; for others they are not there.
+    virtual bool sees_media() const { return false; }
     /// True when a picture of one sample a pixel goes through the pixels' centres.
     virtual bool centres_single_samples() const { return false; }
     /// How lights are chosen: one of light_chooser_names().

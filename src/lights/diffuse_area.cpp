@@ -1,5 +1,6 @@
 /// A glowing surface that looks equally bright from every direction (Pharr et al. 2023, section 12.4).
 #include "color/tone.h"
+#include "image/image_colors.h"
 #include "lights/area_light.h"
 #include "lights/emission_image.h"
 #include "lights/light_parts.h"
@@ -126,7 +127,8 @@ struct DiffuseAreaLight final : AreaLight {
         Vec3d sum;
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x) sum += Vec3d(emitted_rgb(image, x, y));
-        Vec3 mean(sum / (static_cast<double>(image.width()) * image.height()));
+        const Vec3 mean = convert_rgb(color_space_of(image), srgb_space()) *
+                          Vec3(sum / (static_cast<double>(image.width()) * image.height()));
         mean_color_ = SpectrumValue::illuminant_rgb(srgb_space(), mean);
         image_luminance_ = luminance(mean);
     }

@@ -7,13 +7,14 @@
 #include "base/threads.h"
 #include "describe/context.h"
 #include "image/codec.h"
+#include "image/image_colors.h"
 #include "image/statistics.h"
 
 namespace alhazen {
 
 EmissionImage::EmissionImage(const Image& image, ColorMode mode)
-    : size_(image.size()),
-      light_scale_(SpectrumValue::illuminant_rgb(srgb_space(), Vec3(1)).light_scale(mode)),
+    : space_(&color_space_of(image)), size_(image.size()),
+      light_scale_(SpectrumValue::illuminant_rgb(*space_, Vec3(1)).light_scale(mode)),
       texels_(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height())) {
     // Fitting spectra takes microseconds a texel.
     parallel_ranges(texels_.size(), 4096,
@@ -23,10 +24,12 @@ EmissionImage::EmissionImage(const Image& image, ColorMode mode)
 void EmissionImage::fill(const Image& image, std::size_t first, std::size_t last, ColorMode mode) {
     std::vector<Vec3> colors;
     colors.reserve(last - first);
+    const Matrix3 srgb_from_rgb = convert_rgb(*space_, srgb_space());
     for (std::size_t i = first; i < last; ++i) {
         auto width = static_cast<std::size_t>(size_.x);
         Vec3 rgb = emitted_rgb(image, static_cast<int>(i % width), static_cast<int>(i / width));
         if (mode == ColorMode::rgb) {
+            if (space_ != &srgb_space()) rgb = srgb_from_rgb * rgb;
             texels_[i] = {{rgb.x, rgb.y, rgb.z}, 1};
             continue;
         }
@@ -36,7 +39,7 @@ void EmissionImage::fill(const Image& image, std::size_t first, std::size_t last
     }
     if (mode == ColorMode::rgb) return;
     std::vector<SigmoidCoefficients> fits(colors.size());
-    upsample(srgb_space(), colors, fits);
+    upsample(*space_, colors, fits);
     for (std::size_t i = first; i < last; ++i) {
         const SigmoidCoefficients& s = fits[i - first];
         texels_[i] = {{s.c0, s.c1, s.c2}, texels_[i].scale};
@@ -49,7 +52,7 @@ Spectrum EmissionImage::eval(Vec2i texel, const Wavelengths& lambda) const {
     if (lambda.mode == ColorMode::rgb) return {t.c[0], t.c[1], t.c[2], (t.c[0] + t.c[1] + t.c[2]) / 3};
     if (t.scale == 0) return 0;
     SigmoidCoefficients sigmoid{t.c[0], t.c[1], t.c[2]};
-    return sigmoid.eval(lambda.lambda) * srgb_space().illuminant->eval(lambda.lambda) * t.scale;
+    return sigmoid.eval(lambda.lambda) * space_->illuminant->eval(lambda.lambda) * t.scale;
 }
 
 Vec2i EmissionImage::nearest(Vec2 uv) const {

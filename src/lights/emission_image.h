@@ -17,7 +17,7 @@ struct BuildContext;
 
 class EmissionImage {
   public:
-    /// The image's colours are linear sRGB; negative values count as 0.
+    /// Negative values count as 0, in the image's colour space.
     EmissionImage(const Image& image, ColorMode mode);
 
     Vec2i size() const { return size_; }
@@ -36,6 +36,7 @@ class EmissionImage {
     };
     void fill(const Image& image, std::size_t first, std::size_t last, ColorMode mode);
 
+    const RgbColorSpace* space_;
     Vec2i size_;
     float light_scale_ = 1;
     std::vector<Texel> texels_;

@@ -1,6 +1,6 @@
 #include "lights/environment_map.h"
 
-#include "color/tone.h"
+#include "image/image_colors.h"
 #include "math/equal_area.h"
 
 namespace alhazen {
@@ -26,6 +26,7 @@ PiecewiseConstant2D EnvironmentMap::make_distribution(const Image& image) const 
 }
 
 void EnvironmentMap::integrate(const Image& image) {
+    const RgbColorSpace& space = color_space_of(image);
     Vec2i size = texels_.size();
     Vec3d mean;
     double illuminance = 0;
@@ -37,10 +38,10 @@ void EnvironmentMap::integrate(const Image& image) {
             Vec2 middle{(static_cast<float>(x) + 0.5f) / static_cast<float>(size.x),
                         (static_cast<float>(y) + 0.5f) / static_cast<float>(size.y)};
             auto cosine = static_cast<double>(std::max(0.0f, direction(middle).z));
-            illuminance += static_cast<double>(luminance(rgb)) * omega * cosine;
+            illuminance += static_cast<double>(space.to_xyz(rgb).y) * omega * cosine;
         }
     }
-    mean_rgb_ = Vec3(mean);
+    mean_rgb_ = convert_rgb(space, srgb_space()) * Vec3(mean);
     illuminance_ = static_cast<float>(illuminance);
 }
 

@@ -13,9 +13,9 @@ namespace {
 
 class SceneBuilder {
   public:
-    SceneBuilder(SceneDescription& description, const MaterialSet& materials, const AccelChoice& accel,
-                 BuildContext& context)
-        : description_(description), materials_(materials), accel_(accel), context_(context) {}
+    SceneBuilder(SceneDescription& description, const MaterialSet& materials, const MediumSet& media,
+                 const AccelChoice& accel, BuildContext& context)
+        : description_(description), materials_(materials), media_(media), accel_(accel), context_(context) {}
 
     std::unique_ptr<Scene> build() {
         build_lights();
@@ -108,6 +108,8 @@ class SceneBuilder {
         for (std::size_t i = 0; i < shapes.size(); ++i) {
             if (!shapes[i].shape) continue;
             shapes[i].material = material_of(node.shapes[i]);
+            shapes[i].media = {medium(node.shapes[i].inside_medium, node.shapes[i]),
+                               medium(node.shapes[i].outside_medium, node.shapes[i])};
             if (node.shapes[i].area_light >= 0) add_area_lights(node, node.shapes[i], shapes[i]);
         }
         std::erase_if(shapes, [](const PlacedShape& s) { return !s.shape; });
@@ -125,6 +127,10 @@ class SceneBuilder {
                                         fmt::format("unknown material \"{}\"{}", shape.material_name,
                                                     did_you_mean(shape.material_name, materials_.names())));
         return material;
+    }
+
+    const Medium* medium(const std::string& name, const ShapeNode& shape) {
+        return media_.find(name, shape.node.place, context_.messages);
     }
 
     void add_area_lights(const ObjectNode& object, const ShapeNode& node, PlacedShape& placed) {
@@ -146,6 +152,7 @@ class SceneBuilder {
 
     SceneDescription& description_;
     const MaterialSet& materials_;
+    const MediumSet& media_;
     const AccelChoice& accel_;
     BuildContext& context_;
     std::vector<std::unique_ptr<Light>> lights_;
@@ -158,8 +165,8 @@ class SceneBuilder {
 } // namespace
 
 std::unique_ptr<Scene> build_scene(SceneDescription& description, const MaterialSet& materials,
-                                   const AccelChoice& accel, BuildContext& context) {
-    return SceneBuilder(description, materials, accel, context).build();
+                                   const MediumSet& media, const AccelChoice& accel, BuildContext& context) {
+    return SceneBuilder(description, materials, media, accel, context).build();
 }
 
 } // namespace alhazen

@@ -5,13 +5,14 @@
 
 #include "describe/scene_description.h"
 #include "materials/material_set.h"
+#include "media/medium_set.h"
 #include "scene/scene.h"
 
 namespace alhazen {
 
-/// context.textures and .materials must be set; materials are those of description, in its order. Every
+/// context.textures and .materials must be set; materials and media are those of description. Every
 /// object gets a structure as accel says. Returns nullptr when errors were added to context.messages.
 std::unique_ptr<Scene> build_scene(SceneDescription& description, const MaterialSet& materials,
-                                   const AccelChoice& accel, BuildContext& context);
+                                   const MediumSet& media, const AccelChoice& accel, BuildContext& context);
 
 } // namespace alhazen

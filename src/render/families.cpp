@@ -7,6 +7,7 @@
 #include "lights/area_light.h"
 #include "lights/light.h"
 #include "materials/material.h"
+#include "media/medium.h"
 #include "render/accelerator.h"
 #include "samplers/sampler.h"
 #include "sdf/sdf.h"
@@ -45,6 +46,7 @@ const std::vector<FamilyInfo>& families() {
          "Signed distance fields: bodies, and operators that make bodies of others, for Shape \"sdf\".",
          docs_of(&sdf_kinds)},
         {"material", "Material", "What surfaces do to light.", docs_of(&material_kinds)},
+        {"medium", "MakeNamedMedium \"name\"", "What fills space between surfaces.", docs_of(&medium_kinds)},
         {"float-texture", "Texture \"name\" \"float\"", "Numbers that vary over surfaces.",
          docs_of(&float_texture_kinds)},
         {"spectrum-texture", "Texture \"name\" \"spectrum\"", "Colours that vary over surfaces.",

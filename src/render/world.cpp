@@ -189,14 +189,19 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     sdfs.build(description.sdfs, context);
     world->materials.build(description.materials, context);
     context.materials = &world->materials;
-    for (const TextureNode& medium : description.media)
-        messages.add_unsupported(medium.node.place, "participating media are not supported yet", "vacuum");
+    world->media.build(description.media, context);
     AccelChoice accel = choose_accel(description, settings, context);
-    world->scene = build_scene(description, world->materials, accel, context);
+    world->scene = build_scene(description, world->materials, world->media, accel, context);
+    if (world->scene)
+        world->scene->set_medium_at_camera(world->media.find(camera->medium, camera->node.place, messages));
     world->textures.forget_images();
     if (world->scene && accel.distance_field > 0)
         approximate(*world->scene, accel.distance_field, description.accelerator.place, messages);
     messages.throw_if_errors();
+    if (world->scene->has_media() && !world->integrator->sees_media())
+        messages.add_warning(description.integrator.place,
+                             "this integrator does not see participating media, of which the scene has some; "
+                             "volpath does");
     world->scene->set_light_chooser(world->integrator->light_sampler());
     world->integrator->prepare(*world->scene);
     return world;

@@ -9,6 +9,7 @@
 #include "film/filter.h"
 #include "integrators/integrator.h"
 #include "materials/material_set.h"
+#include "media/medium_set.h"
 #include "render/settings.h"
 #include "samplers/sampler.h"
 #include "scene/scene.h"
@@ -21,6 +22,7 @@ struct World {
     ColorMode mode = ColorMode::spectral;
     TextureSet textures;
     MaterialSet materials;
+    MediumSet media;
     std::unique_ptr<Scene> scene;
     std::unique_ptr<Camera> camera;
     std::unique_ptr<Film> film;

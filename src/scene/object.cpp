@@ -288,6 +288,7 @@ Hit Object::surface(const Found& found) {
     hit.shape = primitive.shape;
     hit.primitive = primitive.primitive;
     hit.material = placed.material;
+    hit.media = placed.media.is_border() ? &placed.media : nullptr;
     hit.area_light = placed.lights.empty() ? nullptr : placed.lights[primitive.primitive];
     for (std::size_t i = found.depth; i-- > 0;) transform_hit(found.instances[i]->world_from_object, hit);
     if (found.depth > 0) hit.instance = found.instances[found.depth - 1]->number + 1;

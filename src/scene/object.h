@@ -7,6 +7,7 @@
 
 #include "accel/accel.h"
 #include "materials/material.h"
+#include "media/medium.h"
 #include "scene/ball_list.h"
 #include "shapes/shape.h"
 #include "shapes/triangle_mesh.h"
@@ -20,6 +21,7 @@ struct PlacedShape {
     std::unique_ptr<Shape> shape;
     const Material* material = nullptr;
     std::vector<const Light*> lights; ///< one a primitive, or none
+    MediumInterface media;
 };
 
 /// An object placed in another.

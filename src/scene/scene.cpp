@@ -10,6 +10,9 @@ Scene::Scene(std::vector<std::unique_ptr<Object>> objects, std::vector<std::uniq
         lights_.push_back(light.get());
         if (light->is_infinite() && !light->is_delta()) infinite_.push_back(light.get());
     }
+    for (const auto& object : objects_)
+        for (const PlacedShape& placed : object->shapes())
+            has_media_ = has_media_ || placed.media.is_border();
     set_light_chooser("bvh");
 }
 

@@ -63,6 +63,15 @@ class Scene {
     /// Builds another structure for each object; for measurements. Nobody may be asking meanwhile.
     void rebuild(const AccelChoice& accel);
 
+    /// What the camera stands in; nullptr for nothing.
+    const Medium* medium_at_camera() const { return medium_at_camera_; }
+    void set_medium_at_camera(const Medium* medium) {
+        medium_at_camera_ = medium;
+        has_media_ = has_media_ || medium;
+    }
+    /// Whether light may pass through any medium.
+    bool has_media() const { return has_media_; }
+
     const Bounds3& bounds() const { return bounds_; }
     SceneCounts counts() const;
 
@@ -74,6 +83,8 @@ class Scene {
     std::unique_ptr<LightChooser> chooser_;
     std::unique_ptr<DistanceScene> approximation_;
     Bounds3 bounds_;
+    const Medium* medium_at_camera_ = nullptr;
+    bool has_media_ = false;
 };
 
 } // namespace alhazen

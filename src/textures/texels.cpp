@@ -1,5 +1,7 @@
 #include "textures/texels.h"
 
+#include "image/image_colors.h"
+
 namespace alhazen {
 
 namespace {
@@ -62,20 +64,20 @@ struct ScaledTexels final : ColorTexels {
     std::size_t bytes() const override { return texels.bytes(); }
 };
 
-std::vector<SigmoidCoefficients> upsample_all(const std::vector<Vec3>& colors) {
+std::vector<SigmoidCoefficients> upsample_all(const RgbColorSpace& space, const std::vector<Vec3>& colors) {
     std::vector<SigmoidCoefficients> out(colors.size());
-    upsample(srgb_space(), colors, out);
+    upsample(space, colors, out);
     return out;
 }
 
-Pyramid<SigmoidCoefficients> upsample_albedos(const Pyramid<Vec3>& colors) {
+Pyramid<SigmoidCoefficients> upsample_albedos(const RgbColorSpace& space, const Pyramid<Vec3>& colors) {
     std::vector<Pyramid<SigmoidCoefficients>::Level> levels;
     for (int l = 0; l < colors.levels(); ++l)
-        levels.push_back({colors.size(l), upsample_all(colors.level(l).texels)});
+        levels.push_back({colors.size(l), upsample_all(space, colors.level(l).texels)});
     return {std::move(levels), colors.wrap_mode()};
 }
 
-Pyramid<ScaledSigmoid> upsample_scaled(const Pyramid<Vec3>& colors) {
+Pyramid<ScaledSigmoid> upsample_scaled(const RgbColorSpace& space, const Pyramid<Vec3>& colors) {
     std::vector<Pyramid<ScaledSigmoid>::Level> levels;
     for (int l = 0; l < colors.levels(); ++l) {
         std::vector<Vec3> normalized = colors.level(l).texels;
@@ -86,7 +88,7 @@ Pyramid<ScaledSigmoid> upsample_scaled(const Pyramid<Vec3>& colors) {
             c = scale > 0 ? c / scale : Vec3(0);
             scales.push_back(scale);
         }
-        auto sigmoids = upsample_all(normalized);
+        auto sigmoids = upsample_all(space, normalized);
         std::vector<ScaledSigmoid> texels(scales.size());
         for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = {sigmoids[i], scales[i]};
         levels.push_back({colors.size(l), std::move(texels)});
@@ -118,19 +120,22 @@ std::unique_ptr<ColorTexels> make_color_texels(const Image& image, WrapMode wrap
     Pyramid<Vec3> colors = rgb_pyramid(image, wrap, reduced_levels).map([&](Vec3 c) {
         return Vec3(adjusted(c.x), adjusted(c.y), adjusted(c.z));
     });
+    const RgbColorSpace& space = color_space_of(image);
     if (mode == ColorMode::rgb) {
         auto rgb = std::make_unique<RgbTexels>();
-        rgb->texels = std::move(colors);
+        rgb->texels = &space == &srgb_space() ? std::move(colors) : colors.map([&](Vec3 c) {
+            return max(convert_rgb(space, srgb_space()) * c, Vec3(0));
+        });
         return rgb;
     }
     if (is_albedo) {
         auto albedo = std::make_unique<AlbedoTexels>();
-        albedo->texels = upsample_albedos(colors);
+        albedo->texels = upsample_albedos(space, colors);
         return albedo;
     }
     auto scaled = std::make_unique<ScaledTexels>();
-    scaled->texels = upsample_scaled(colors);
-    if (role == SpectrumRole::illuminant) scaled->illuminant = srgb_space().illuminant;
+    scaled->texels = upsample_scaled(space, colors);
+    if (role == SpectrumRole::illuminant) scaled->illuminant = space.illuminant;
     return scaled;
 }
 

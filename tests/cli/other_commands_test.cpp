@@ -113,8 +113,9 @@ TEST_F(Commands, DiffPrintsEveryMetricAndJudges) {
 
 TEST_F(Commands, HelpExplainsEverythingRegistered) {
     Outcome all = alhazen("help");
-    for (const char* family : {"integrator", "camera", "film", "filter", "sampler", "accelerator", "shape",
-                               "material", "float-texture", "spectrum-texture", "light", "area-light"}) {
+    for (const char* family :
+         {"integrator", "camera", "film", "filter", "sampler", "accelerator", "shape", "material", "medium",
+          "float-texture", "spectrum-texture", "light", "area-light"}) {
         EXPECT_THAT(all.out, HasSubstr(family));
         Outcome list = alhazen(std::string("help ") + family);
         EXPECT_EQ(list.exit_code, 0);

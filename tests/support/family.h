@@ -2,6 +2,7 @@
 /// documents.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 
@@ -42,13 +43,16 @@ std::vector<std::string> messages_of(const KindList<Family>& kinds, std::string 
     return texts;
 }
 
-/// Each kind with its defaults and with each of its documented examples.
+/// Each kind with its defaults, unless it asks for something, and with each of its documented examples.
 template <class Family, class Visit>
 void for_each_example(const KindList<Family>& kinds, Visit visit,
                       const std::function<void(BuildContext&)>& prepare = {}) {
     for (const Kind<Family>& kind : kinds.all()) {
-        std::vector<Example> examples = kind.doc().examples;
-        examples.insert(examples.begin(), Example{"defaults", {}});
+        const KindDoc doc = kind.doc();
+        std::vector<Example> examples = doc.examples;
+        const bool needs_something = std::any_of(doc.fields.begin(), doc.fields.end(),
+                                                 [](const FieldDoc& field) { return field.is_required; });
+        if (!needs_something) examples.insert(examples.begin(), Example{"defaults", {}});
         for (const Example& example : examples) {
             SCOPED_TRACE(std::string(Family::family_name) + " " + kind.name + ", " + example.name);
             auto member = make_member(kinds, kind.name, example.parameters, prepare);

@@ -36,6 +36,31 @@ void add_sample_range(GridData& data) {
             if (!std::isfinite(v)) throw std::runtime_error("it holds values that are not finite numbers");
 }
 
+/// Blocks of one value that the nodes of a level hold, as bricks.
+template <int level>
+void add_tiles(const nanovdb::NanoGrid<float>& grid, GridData& data) {
+    constexpr std::size_t most_bricks = std::size_t{1} << 22; // 8 GB
+    const auto* node = grid.tree().getFirstNode<level>();
+    using Node = std::remove_cvref_t<decltype(*node)>;
+    constexpr int side = static_cast<int>(Node::ChildNodeType::DIM);
+    for (std::uint32_t k = 0; k < grid.tree().nodeCount(level); ++k, ++node)
+        for (std::uint32_t n = 0; n < Node::SIZE; ++n) {
+            if (node->childMask().isOn(n)) continue;
+            const nanovdb::Coord o = node->offsetToGlobalCoord(n);
+            const float value = grid.tree().getValue(o);
+            if (value == grid.tree().background()) continue;
+            for (int z = 0; z < side; z += GridBrick::size)
+                for (int y = 0; y < side; y += GridBrick::size)
+                    for (int x = 0; x < side; x += GridBrick::size) {
+                        if (data.bricks.size() >= most_bricks)
+                            throw std::runtime_error("its filled blocks take more memory than 8 GB");
+                        GridBrick& b = data.bricks.emplace_back();
+                        b.origin = {o.x() + x, o.y() + y, o.z() + z};
+                        b.values.fill(value);
+                    }
+        }
+}
+
 GridData from_nanovdb(const nanovdb::NanoGrid<float>& grid) {
     GridData data;
     data.background = std::abs(grid.tree().background());
@@ -56,7 +81,21 @@ GridData from_nanovdb(const nanovdb::NanoGrid<float>& grid) {
                 for (int x = 0; x < 8; ++x)
                     b.values[GridBrick::at(x, y, z)] = leaf->getValue(nanovdb::Coord(x, y, z));
     }
+    // In a level set tiles are deep inside or far outside; elsewhere they are blocks of one value.
+    if (!data.is_level_set) {
+        add_tiles<1>(grid, data);
+        add_tiles<2>(grid, data);
+    }
     return data;
+}
+
+void set_active_range(const nanovdb::NanoGrid<float>& grid, GridData& data) {
+    const nanovdb::CoordBBox box = grid.indexBBox();
+    for (int i = 0; i < 3; ++i) {
+        data.lo[i] = std::max(data.lo[i], box.min()[i]);
+        data.hi[i] = std::min(data.hi[i], box.max()[i]);
+        if (data.lo[i] > data.hi[i]) throw std::runtime_error("it holds no values");
+    }
 }
 
 std::string names_text(const std::vector<std::string>& names) {
@@ -83,12 +122,12 @@ GridData read_nvdb(const std::filesystem::path& file, const std::string& grid) {
             if (!nanovdb::isValid(*found, true)) throw std::runtime_error("damaged: its checksum is wrong");
             GridData data = from_nanovdb(*found);
             add_sample_range(data);
+            if (!data.is_level_set) set_active_range(*found, data);
             return data;
         }
     }
     if (grid.empty()) throw std::runtime_error("it holds no grid of floats");
-    throw std::runtime_error(
-        fmt::format("no grid of floats is named \"{}\"; there are {}", grid, names_text(names)));
+    throw NoSuchGrid(fmt::format("no grid of floats is named \"{}\"; there are {}", grid, names_text(names)));
 }
 
 void write_nvdb(const std::filesystem::path& file, const GridData& data) {

@@ -1,0 +1,188 @@
+/// The path tracer through participating media (Pharr et al. 2023, section 14.2). Media are crossed by
+/// tentative collisions, each of which turns out to be an absorption, a scattering, or nothing. The
+/// wavelengths of a path share one walk, placed by one of them; each is weighed by the mean density that all
+/// of them have for the walk (Miller, Georgiev and Jarosz 2019). Where a scene has no media, it is the path
+/// tracer.
+#include "integrators/integrator.h"
+#include "integrators/media_walk.h"
+#include "integrators/path_tracer.h"
+#include "integrators/weights.h"
+#include "materials/material.h"
+
+namespace alhazen {
+
+namespace {
+
+struct VolPath final : Integrator {
+    int maxdepth = 5;
+    bool regularize = false;
+    LightSampler lightsampler = LightSampler::bvh;
+
+    static void describe(Fields<VolPath>& f) {
+        f.about("Path tracer for surfaces and participating media, with next event estimation, multiple "
+                "importance "
+                "sampling over techniques and wavelengths, and Russian roulette.");
+        f.field("maxdepth", &VolPath::maxdepth,
+                "bounces and scatterings of a path at most; 0 shows lights only")
+            .in(0, 10000);
+        f.field("regularize", &VolPath::regularize,
+                "widen narrow lobes after the first rough bounce: less noise, a little blur");
+        f.field("lightsampler", &VolPath::lightsampler, "how the light to sample is chosen");
+    }
+
+    std::string light_sampler() const override {
+        return FieldType<LightSampler>::choices()[std::size_t(lightsampler)];
+    }
+    bool sees_media() const override { return true; }
+
+    Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
+        if (!path.scene.has_media()) return trace_path({maxdepth, regularize}, ray, path);
+        return trace_through_media(ray, path);
+    }
+
+  private:
+    /// Where a path is, and what it is worth there.
+    struct Walk {
+        Ray ray;
+        const Medium* medium = nullptr;
+        LaneWeights weights;
+        int depth = 0;
+        float eta_scale = 1; // radiance squeezed by refraction, which Russian roulette must not count as loss
+        bool specular = true; ///< light sampling had no part in finding what the ray finds
+        bool rough_before = false;
+        LightReceiver from;
+
+        /// Light that the ray has met, which light sampling would have chosen with a density.
+        Spectrum found(Spectrum L, float light_pdf) const {
+            return specular ? weights.alone(L) : weights.beside_light(L, light_pdf);
+        }
+    };
+
+    Task<Spectrum> trace_through_media(Ray ray, PathContext& path) const {
+        Spectrum sum = 0;
+        Walk walk;
+        walk.ray = ray;
+        walk.medium = path.scene.medium_at_camera();
+        walk.weights = LaneWeights(path.lambda, path.samples.next1());
+        const Arena::Mark mark = path.arena.mark();
+        for (;;) {
+            // What one scattering needed, the next does not.
+            path.arena.rewind(mark);
+            std::optional<Hit> hit = co_await path.closest(walk.ray);
+            if (walk.medium) {
+                walk.ray.tmax = hit ? hit->t : infinity;
+                MediumCrossing crossing =
+                    cross_medium(*walk.medium, walk.ray, walk.depth < maxdepth, walk.weights, path);
+                sum += crossing.emitted;
+                if (crossing.end == MediumCrossing::End::absorbed) co_return sum;
+                if (crossing.end == MediumCrossing::End::scattered) {
+                    if (walk.depth++ >= maxdepth) co_return sum;
+                    sum += co_await direct_light_in_medium(crossing, walk, path);
+                    scatter_in_medium(crossing, walk, path);
+                    if (!survives(walk, path)) co_return sum;
+                    continue;
+                }
+            }
+            if (!hit) co_return sum + escaped_light(walk, path);
+            if (hit->area_light) sum += emitted_light(*hit, walk, path);
+
+            Bsdf* bsdf = hit->material->at(*hit, path.lambda, path.arena);
+            walk.weights.follow(path.lambda);
+            if (!bsdf) {
+                walk.medium = medium_beyond(*hit, walk.ray.d, walk.medium);
+                walk.ray = hit->spawn(walk.ray.d);
+                continue;
+            }
+            if (walk.depth++ >= maxdepth) co_return sum;
+            if (regularize && walk.rough_before) bsdf->regularize();
+            if (has(bsdf->lobes(), Lobes::diffuse | Lobes::glossy))
+                sum += co_await direct_light_at_surface(*hit, *bsdf, walk, path);
+            if (!scatter_at_surface(*hit, *bsdf, walk, path) || !survives(walk, path)) co_return sum;
+        }
+    }
+
+    static Spectrum escaped_light(const Walk& walk, const PathContext& path) {
+        Spectrum sum = 0;
+        for (const Light* light : path.scene.infinite_lights()) {
+            float pdf = 0;
+            if (!walk.specular)
+                pdf = path.scene.light_probability(walk.from, light) *
+                      light->pdf_escaped(walk.from, walk.ray.d);
+            sum += walk.found(light->escaped(walk.ray.d, path.lambda), pdf);
+        }
+        return sum;
+    }
+
+    static Spectrum emitted_light(const Hit& hit, const Walk& walk, const PathContext& path) {
+        const Spectrum L = hit.area_light->emitted(hit, path.lambda);
+        if (L.is_black()) return 0;
+        float pdf = 0;
+        if (!walk.specular)
+            pdf = path.scene.light_probability(walk.from, hit.area_light) *
+                  hit.area_light->pdf_hit(walk.from, hit, walk.ray.d);
+        return walk.found(L, pdf);
+    }
+
+    static Task<Spectrum> direct_light_at_surface(const Hit& hit, const Bsdf& bsdf, const Walk& walk,
+                                                  PathContext& path) {
+        const std::optional<DirectLight> direct = propose_light(hit, bsdf, hit.shading_frame(), path);
+        if (!direct) co_return 0;
+        const LaneWeights weights = co_await shadow_weights(
+            direct->shadow_ray, medium_beyond(hit, direct->shadow_ray.d, walk.medium), walk.weights, path);
+        co_return weights.from_light(direct->value, direct->light_pdf,
+                                     direct->is_delta ? 0 : direct->bsdf_pdf);
+    }
+
+    static Task<Spectrum> direct_light_in_medium(const MediumCrossing& crossing, const Walk& walk,
+                                                 PathContext& path) {
+        const std::optional<DirectLight> direct =
+            propose_light_in_medium(crossing, *walk.medium, walk.ray.time, path);
+        if (!direct) co_return 0;
+        const LaneWeights weights =
+            co_await shadow_weights(direct->shadow_ray, walk.medium, walk.weights, path);
+        co_return weights.from_light(direct->value, direct->light_pdf,
+                                     direct->is_delta ? 0 : direct->bsdf_pdf);
+    }
+
+    static void scatter_in_medium(const MediumCrossing& crossing, Walk& walk, PathContext& path) {
+        const PhaseSample next = walk.medium->phase().sample(crossing.wo, path.samples.next2());
+        walk.weights.scatter(1, next.pdf);
+        walk.from = {crossing.p, {}};
+        walk.specular = false;
+        walk.rough_before = true;
+        walk.ray = {crossing.p, next.wi, infinity, walk.ray.time};
+    }
+
+    static bool scatter_at_surface(const Hit& hit, const Bsdf& bsdf, Walk& walk, PathContext& path) {
+        const Frame frame = hit.shading_frame();
+        const float u = path.samples.next1();
+        const std::optional<BsdfSample> next = bsdf.sample(frame.to_local(hit.wo), u, path.samples.next2());
+        if (!next || next->pdf == 0) return false;
+        walk.weights.scatter(next->f / next->pdf, next->pdf);
+        walk.from = {hit.p, hit.ns};
+        walk.specular = has(next->lobes, Lobes::specular);
+        walk.rough_before |= !walk.specular;
+        if (has(next->lobes, Lobes::transmission)) walk.eta_scale *= sqr(next->eta);
+        const Vec3 wi = frame.to_world(next->wi);
+        walk.medium = medium_beyond(hit, wi, walk.medium);
+        walk.ray = hit.spawn(wi);
+        return true;
+    }
+
+    static bool survives(Walk& walk, PathContext& path) {
+        const float survival = walk.weights.throughput() * walk.eta_scale;
+        if (survival < 1 && walk.depth > 1) {
+            if (path.samples.next1() >= survival) return false;
+            walk.weights.scale(1 / survival);
+        }
+        return survival > 0;
+    }
+};
+
+} // namespace
+
+Kind<Integrator> volpath_integrator() {
+    return make_kind<Integrator, VolPath>("volpath");
+}
+
+} // namespace alhazen

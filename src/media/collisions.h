@@ -1,0 +1,61 @@
+/// Tentative collisions of a ray with a medium, drawn from the majorants at one wavelength for all
+/// (Miller, Georgiev and Jarosz 2019, "A null-scattering path integral formulation of light transport").
+#pragma once
+
+#include "base/hash.h"
+#include "media/medium.h"
+
+namespace alhazen {
+
+/// Something that may be an absorption, a scattering, or nothing (a null collision).
+struct Collision {
+    float t = 0; ///< along the ray
+    MediumPoint at;
+    Spectrum sigma_maj = 0; ///< the majorant, per unit length of the medium's space
+    /// The majorants' transmittance since the collision before, over that at the hero.
+    Spectrum transmittance = 1;
+
+    Spectrum sigma_n() const {
+        return map(sigma_maj - at.sigma_a - at.sigma_s, [](float v) { return std::max(v, 0.0f); });
+    }
+};
+
+class Collisions {
+  public:
+    /// hero: the lane whose majorant places the collisions. The ray is in world space, up to its tmax; u in
+    /// [0, 1) places the first collision, the generator the others. The medium must outlive this.
+    Collisions(const Medium& medium, const Ray& ray, const Wavelengths& lambda, int hero, float u, Rng rng)
+        : medium_(medium), lambda_(lambda), ray_(medium.to_medium(ray)), walk_(medium.majorants(), ray_),
+          colors_(medium.colors(lambda)), sigma_t_(colors_.sigma_t()), hero_(hero), first_u_(u), rng_(rng),
+          length_of_d_(length(ray_.d)), is_grey_(sigma_t_ == Spectrum(sigma_t_[hero])) {}
+
+    /// The next collision; nullopt when the ray has reached its end.
+    std::optional<Collision> next();
+    /// The next random number, for whoever decides what a collision was.
+    float uniform() { return rng_.uniform(); }
+    /// After the last collision: the transmittance from it to the ray's end, over that at the hero.
+    Spectrum transmittance() const {
+        if (is_grey_) return 1;
+        const float hero = sigma_t_[hero_];
+        // Nothing passes through infinitely much.
+        return map(sigma_t_, [&](float s) { return s == hero ? 1.0f : std::exp(-(s - hero) * depth_); });
+    }
+
+  private:
+    const Medium& medium_;
+    const Wavelengths& lambda_;
+    Ray ray_;
+    MajorantWalk walk_;
+    MediumColors colors_;
+    Spectrum sigma_t_;
+    int hero_;
+    std::optional<float> first_u_;
+    Rng rng_;
+    float length_of_d_;
+    bool is_grey_;
+    MajorantSegment segment_;
+    float t_ = 0;
+    float depth_ = 0; ///< majorant times length, passed since the last collision
+};
+
+} // namespace alhazen

@@ -1,0 +1,6 @@
+// What fills space, one line each.
+KIND(homogeneous)
+KIND(uniformgrid)
+KIND(rgbgrid)
+KIND(cloud)
+KIND(nanovdb)

@@ -1,0 +1,58 @@
+/// Bounds of a medium's density, cell by cell, and the stretches in which a ray sees them.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "base/bounds.h"
+#include "base/ray.h"
+
+namespace alhazen {
+
+/// A box of cells, each with an upper bound of the density in it; there is nothing outside. As constructed it
+/// reaches everywhere and has the density 1.
+class MajorantGrid {
+  public:
+    MajorantGrid() = default;
+    /// largest(cell): the least upper bound that is known in a part of the box; >= 0 and finite.
+    MajorantGrid(const Bounds3& box, Vec3i cells, const std::function<float(const Bounds3&)>& largest);
+
+    bool is_everywhere() const { return densities_.empty(); }
+    const Bounds3& box() const { return box_; }
+    Vec3i cells() const { return cells_; }
+    float density(Vec3i cell) const {
+        return densities_[static_cast<std::size_t>(cell.x + cells_.x * (cell.y + cells_.y * cell.z))];
+    }
+
+  private:
+    Bounds3 box_;
+    Vec3i cells_;
+    std::vector<float> densities_;
+};
+
+/// A part of a ray in which the bound is the same.
+struct MajorantSegment {
+    float begin = 0, end = 0; ///< along the ray
+    float density = 0;
+};
+
+/// The segments of a ray, in order, by a three-dimensional DDA (Amanatides and Woo 1987).
+class MajorantWalk {
+  public:
+    /// The ray is in the grid's space; d of any length. The grid must outlive the walk.
+    MajorantWalk(const MajorantGrid& grid, const Ray& ray);
+
+    /// nullopt behind the last.
+    std::optional<MajorantSegment> next();
+
+  private:
+    const MajorantGrid& grid_;
+    float t_ = 0, end_ = 0;
+    bool is_over_ = false;
+    Vec3i cell_, step_;
+    Vec3 next_t_, delta_t_; ///< where the next border of each axis is, and from one to the next
+};
+
+} // namespace alhazen

@@ -1,0 +1,115 @@
+/// Smoke, clouds and fire from grid files, where most of space is empty (Pharr et al. 2023, section 11.4.6).
+#include <fmt/format.h>
+
+#include "describe/spectrum_parameter.h"
+#include "media/glow.h"
+#include "media/medium.h"
+#include "media/sparse_field.h"
+
+namespace alhazen {
+
+namespace {
+
+struct NanoVdb final : Medium {
+    std::string filename;
+    UnboundedSpectrum sigma_a{1}, sigma_s{1};
+    float g = 0, scale = 1, Lescale = 1, temperaturescale = 1;
+    std::optional<float> temperatureoffset, temperaturecutoff;
+
+    static void describe(Fields<NanoVdb>& f) {
+        f.about("Matter whose density a NanoVDB file holds, in a grid named \"density\"; where there is a "
+                "grid named \"temperature\", what absorbs glows as a black body, whose maximum is 1.");
+        f.field("filename", &NanoVdb::filename, "the .nvdb file, relative to the scene's folder").required();
+        f.field("sigma_a", &NanoVdb::sigma_a, "how much light is absorbed per length where the density is 1")
+            .at_least(0);
+        f.field("sigma_s", &NanoVdb::sigma_s, "how much light is scattered per length where the density is 1")
+            .at_least(0);
+        f.field("scale", &NanoVdb::scale, "factor on sigma_a and sigma_s").at_least(0);
+        f.field("g", &NanoVdb::g,
+                "mean cosine of the angle by which light is scattered: 0 evenly, towards 1 straight on, "
+                "towards -1 back")
+            .in(-1, 1);
+        f.field("Lescale", &NanoVdb::Lescale, "factor on what is emitted").at_least(0);
+        f.field("temperaturescale", &NanoVdb::temperaturescale, "factor on the temperatures");
+        f.field("temperatureoffset", &NanoVdb::temperatureoffset,
+                "subtracted from the temperatures before scaling")
+            .otherwise("temperaturecutoff, or 0");
+        f.field("temperaturecutoff", &NanoVdb::temperaturecutoff, "older name of temperatureoffset");
+        f.example("smoke", {make_string("filename", "volumes/smoke.nvdb")});
+        f.example("fire", {make_string("filename", "volumes/smoke.nvdb"), make_float("scale", 10),
+                           make_float("Lescale", 0.01f), make_float("temperaturescale", 10)});
+    }
+    void finish(const Node& node, BuildContext& context) {
+        phase_ = HenyeyGreenstein(g);
+        offset_ = temperatureoffset.value_or(temperaturecutoff.value_or(0));
+        glow_ = Glow(context.color_mode);
+        if (!read(node, context)) return;
+        // Everything happens in the space of the density's samples; lengths are those of the medium's own.
+        world_from_medium_ = context.world_from_node;
+        const Bounds3 samples = density_.bounds();
+        Bounds3 box;
+        for (int i = 0; i < 8; ++i)
+            box.extend(Vec3(density_.object_from_index().point(Vec3d(samples.corner(i)))));
+        index_from_medium_ = Transform(*density_.object_from_index().inverse());
+        constexpr int cells = 64;
+        majorants_ = MajorantGrid(box, {cells, cells, cells}, [this](const Bounds3& cell) {
+            return density_.largest(index_from_medium_.bounds(cell));
+        });
+        if (!temperature_.empty())
+            temperature_index_from_medium_ = Transform(*temperature_.object_from_index().inverse());
+    }
+
+    MediumColors colors(const Wavelengths& lambda) const override {
+        return {sigma_a.eval(lambda) * scale, sigma_s.eval(lambda) * scale, 0};
+    }
+    MediumPoint at(Vec3 p, const MediumColors& c, const Wavelengths& lambda) const override {
+        const float d = density_.lookup(index_from_medium_.point(p));
+        MediumPoint point{c.sigma_a * d, c.sigma_s * d, 0};
+        if (is_emissive()) {
+            const float kelvin = temperature_.lookup(temperature_index_from_medium_.point(p));
+            point.Le = glow_.eval((kelvin - offset_) * temperaturescale, lambda) * Lescale;
+        }
+        return point;
+    }
+    bool is_emissive() const override { return !temperature_.empty() && Lescale > 0; }
+
+  private:
+    bool read(const Node& node, BuildContext& context) {
+        const Parameter* parameter = node.find("filename");
+        const Place& place = parameter ? parameter->place : node.place;
+        const std::string prefix = fmt::format("grid file \"{}\": ", filename);
+        auto fail = [&](std::string_view text) {
+            context.messages.add_error(place, prefix + std::string(text));
+            return false;
+        };
+        if (!context.grid_reader || !*context.grid_reader) return fail("grid files cannot be read here");
+        try {
+            GridData data = (*context.grid_reader)(context.resolve(filename), "density");
+            for (const GridBrick& b : data.bricks)
+                for (float v : b.values)
+                    if (v < 0) return fail("it holds densities below 0");
+            density_ = SparseField(std::move(data));
+            if (Lescale > 0)
+                temperature_ = SparseField((*context.grid_reader)(context.resolve(filename), "temperature"));
+        } catch (const NoSuchGrid& e) {
+            // Without temperatures nothing glows.
+            if (density_.empty()) return fail(e.what());
+        } catch (const std::runtime_error& e) {
+            return fail(e.what());
+        }
+        return true;
+    }
+
+    SparseField density_, temperature_;
+    Transform index_from_medium_, temperature_index_from_medium_;
+    Glow glow_{ColorMode::spectral};
+    float offset_ = 0;
+};
+
+} // namespace
+
+Kind<Medium> nanovdb_medium() {
+    return make_kind<Medium, NanoVdb>("nanovdb");
+}
+
+} // namespace alhazen

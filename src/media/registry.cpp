@@ -1,0 +1,4 @@
+#include "media/medium.h"
+
+#define KINDS Medium, medium, "media/list.h"
+#include "describe/register_kinds.inl"
