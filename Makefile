@@ -13,7 +13,7 @@ PREFIX ?= /usr/local
 # For make sanitize, tsan: which tests, as ctest takes it (TESTS="-LE slow").
 TESTS ?=
 
-.PHONY: all render program build test check format sanitize tsan coverage tidy clang bench performance performance-page install clean
+.PHONY: all render program build test check format sanitize tsan coverage tidy clang bench performance performance-page validate install clean
 .NOTPARALLEL:
 
 all: render
@@ -94,6 +94,15 @@ performance: bench performance-page
 performance-page:
 	@test -x build/bin/bench_accel || $(MAKE) bench BENCH=--help
 	build/bin/bench_accel --from docs/performance.json --page docs/performance.md
+
+# Renders the scenes beside the checkout that have reference images and compares. VALIDATE="--only coffee --minutes 2"
+VALIDATE ?=
+validate:
+	@tools/install_packages build
+	@test -f build/build.ninja || cmake --preset release -DALHAZEN_TESTS=OFF
+	@cmake -S . -B build >/dev/null
+	@cmake --build --preset release --target validate
+	build/bin/validate --page docs/validation.md $(VALIDATE)
 
 install: program
 	@cmake --build --preset release --target alhazen_library

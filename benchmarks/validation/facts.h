@@ -1,0 +1,25 @@
+/// The scenes that another renderer made reference images of, and what it took it.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace alhazen::bench {
+
+/// One picture by the other renderer.
+struct PeerRun {
+    int spp = 0;
+    double cpu_seconds = 0; ///< loading included
+    double relmse = 0;      ///< against the reference, the largest 0.1 % left out
+};
+
+/// A scene in a folder of its own with scene.pbrt, reference.exr and reference.json.
+struct SceneFacts {
+    std::string name;
+    PeerRun few, many;
+};
+
+/// In the order of the page. The figures are pbrt-v4's, as the scenes' README has them.
+std::span<const SceneFacts> validation_scenes();
+
+} // namespace alhazen::bench
