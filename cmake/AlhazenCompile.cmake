@@ -19,6 +19,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         -fcoroutines -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread
         -Wno-array-bounds)
 endif()
+if(ALHAZEN_UNITY)
+    # Each file by itself is free of these, which other builds check.
+    target_compile_options(alhazen_compile INTERFACE -Wno-shadow)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(alhazen_compile INTERFACE -Wno-subobject-linkage)
+    endif()
+endif()
 # Everyone formats text; linked here so that all rooms are compiled alike and can share one precompiled header.
 target_link_libraries(alhazen_compile INTERFACE fmt::fmt)
 if(ALHAZEN_SANITIZE)
