@@ -19,7 +19,8 @@ namespace {
 
 std::string read_plain(const std::filesystem::path& path, std::size_t max_bytes) {
     std::ifstream in(path, std::ios::binary);
-    if (!in) throw std::runtime_error(fmt::format("cannot open ({})", std::strerror(errno)));
+    if (!in)
+        throw std::runtime_error(fmt::format("cannot open ({})", std::generic_category().message(errno)));
     std::string bytes;
     std::error_code ignored;
     auto size = std::filesystem::file_size(path, ignored);

@@ -19,7 +19,7 @@ namespace {
 
 bool has_desktop() {
     auto is_set = [](const char* name) {
-        const char* value = std::getenv(name);
+        const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): nobody sets any
         return value && *value;
     };
     return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");

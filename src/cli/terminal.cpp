@@ -15,7 +15,7 @@ namespace alhazen {
 namespace {
 
 std::string_view environment(const char* name) {
-    const char* value = std::getenv(name);
+    const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): nobody sets any
     return value ? value : "";
 }
 

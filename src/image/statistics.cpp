@@ -10,7 +10,8 @@ std::vector<double> channel_means(const Image& image) {
     std::vector<double> sums(channels, 0.0);
     auto values = image.values();
     for (std::size_t i = 0; i < values.size(); ++i) sums[i % channels] += static_cast<double>(values[i]);
-    for (double& s : sums) s /= static_cast<double>(values.size() / channels);
+    const std::size_t pixels = values.size() / channels;
+    for (double& s : sums) s /= static_cast<double>(pixels);
     return sums;
 }
 

@@ -142,7 +142,7 @@ LightTree::Pair::Two LightTree::Pair::importance(const LightReceiver& at) const 
     auto cosine = [](Lanes4 v) { return max_lanes(min_lanes(v, all_lanes(1)), all_lanes(-1)); };
     Lanes4 cos_w = cosine((x * load(axis[0]) + y * load(axis[1]) + z * load(axis[2])) * scale);
     const IntLanes4 both{two_sided[0], two_sided[1], two_sided[0], two_sided[1]};
-    cos_w = both & (cos_w < 0) ? -cos_w : cos_w;
+    cos_w = (both & (cos_w < 0)) ? -cos_w : cos_w;
     const Lanes4 sin_w = square_root(1 - cos_w * cos_w), cos_n = load(cos_normals), sin_n = load(sin_normals);
     Lanes4 cos_emitted = cos_of_difference(sin_of_difference(sin_w, cos_w, sin_n, cos_n),
                                            cos_of_difference(sin_w, cos_w, sin_n, cos_n), sin_b, cos_b);

@@ -88,7 +88,7 @@ void DistanceScene::sample() {
 
 std::size_t DistanceScene::nearest_sample(Vec3d q, double& away) const {
     Vec3i node;
-    for (int i = 0; i < 3; ++i) node[i] = std::clamp(static_cast<int>(q[i] + 0.5), 0, n_[i] - 1);
+    for (int i = 0; i < 3; ++i) node[i] = std::clamp(static_cast<int>(std::lround(q[i])), 0, n_[i] - 1);
     away = length(q - Vec3d(node));
     return index(node);
 }

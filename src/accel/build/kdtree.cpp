@@ -183,7 +183,8 @@ class KdBuilder {
         return box.half_area();
     }
     float tests(std::size_t count) const {
-        return static_cast<float>((count + options_.block - 1) / options_.block);
+        const std::size_t blocks = (count + options_.block - 1) / options_.block;
+        return static_cast<float>(blocks);
     }
     // What is left over is shared in proportion.
     static std::size_t share(std::size_t budget, std::size_t own, std::size_t total) {

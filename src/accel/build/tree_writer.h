@@ -19,7 +19,8 @@ class TreeWriter {
     std::uint32_t leaf_size() const { return std::min(options_.leaf_size, Tree::max_leaf_size); }
     /// What a leaf of the size would cost.
     float leaf_cost(const Bounds3& bounds, std::uint32_t count) const {
-        return bounds.half_area() * static_cast<float>((count + options_.block - 1) / options_.block);
+        const std::uint32_t blocks = (count + options_.block - 1) / options_.block;
+        return bounds.half_area() * static_cast<float>(blocks);
     }
 
     /// A leaf over count (1 ... Tree::max_leaf_size) places of the order.

@@ -132,7 +132,7 @@ class PacketWalk {
         while (height_ > 0) {
             const Entry e = stack_[--height_];
             if (e.t > longest_) continue;
-            if (__builtin_popcountll(e.rays) <= rays_alone)
+            if (static_cast<std::uint32_t>(__builtin_popcountll(e.rays)) <= rays_alone)
                 go_on_alone(e);
             else if (e.reference & alhazen::wide_leaf)
                 visit(e);

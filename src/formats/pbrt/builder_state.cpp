@@ -121,8 +121,7 @@ void PbrtBuilder::attribute_begin(std::string directive, Place place) {
     if (!check_world(directive, place)) return;
     if (scope_.open.size() >= deepest_nesting) {
         // Reading on would only say the same of every further block, and of those that are never closed.
-        messages_.add_error(std::move(place),
-                            fmt::format("blocks nested more than {} deep", deepest_nesting));
+        messages_.add_error(place, fmt::format("blocks nested more than {} deep", deepest_nesting));
         messages_.throw_if_errors();
     }
     scope_.open.push_back({OpenBlock::Kind::attribute, std::move(place), std::move(directive), scope_.state});

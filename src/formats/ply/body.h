@@ -51,7 +51,7 @@ class PlyBody {
     /// Before anything is allocated: a count may be a lie.
     void check_room(const PlyElement& element, std::size_t least) const {
         // In text the last value needs no blank behind it.
-        std::uint64_t room = (cursor_.left() + (Cursor::is_binary ? 0 : 1)) / least;
+        std::uint64_t room = (cursor_.left() + (Cursor::is_binary ? 0 : 1)) / std::max(least, std::size_t{1});
         if (element.count > room)
             cursor_.fail("element \"" + element.name + "\" is declared " + std::to_string(element.count) +
                          " times; the file has room for " + std::to_string(room) + " at most");
