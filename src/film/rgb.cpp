@@ -19,6 +19,7 @@
 #include "color/color_space.h"
 #include "color/sensor.h"
 #include "film/film.h"
+#include "film/splats.h"
 
 namespace alhazen {
 
@@ -70,9 +71,7 @@ class RgbFilm final : public Film {
 
     void start(ColorMode mode) override;
     void add(Vec2i pixel, Spectrum L, const Wavelengths& lambda, float weight) override {
-        Vec3 rgb = sensor_.to_sensor_rgb(L, lambda);
-        float largest = max_component(rgb);
-        if (largest > limit_) rgb *= limit_ / largest;
+        const Vec3 rgb = measured(L, lambda);
         Sums& s = sums_[index(pixel)];
         const double w = static_cast<double>(weight);
         s.rgb += Vec3d(rgb);
@@ -80,9 +79,24 @@ class RgbFilm final : public Film {
         s.weight += w;
         s.count += 1;
     }
+    bool takes_splats() const override { return true; }
+    void start_splats(const Filter& filter) override {
+        splats_.emplace(pixels_, filter);
+        splat_scale_ = 1;
+    }
+    void add_splat(Vec2 position, Spectrum L, const Wavelengths& lambda) override {
+        splats_->add(position, measured(L, lambda));
+    }
+    bool splat_reaches(Vec2 position) const override { return splats_ && splats_->reaches(position); }
+    void set_splat_scale(double scale) override { splat_scale_ = scale; }
     Image image() const override;
 
   private:
+    Vec3 measured(Spectrum L, const Wavelengths& lambda) const {
+        const Vec3 rgb = sensor_.to_sensor_rgb(L, lambda);
+        const float largest = max_component(rgb);
+        return largest > limit_ ? rgb * (limit_ / largest) : rgb;
+    }
     // One cache line.
     struct Sums {
         Vec3d rgb, weighted_rgb;
@@ -105,6 +119,8 @@ class RgbFilm final : public Film {
     Matrix3 output_from_sensor_;
     float limit_ = infinity;
     BigArray<Sums> sums_;
+    std::optional<Splats> splats_;
+    double splat_scale_ = 1;
 };
 
 void RgbFilm::describe(Fields<RgbFilm>& f) {
@@ -232,6 +248,7 @@ void RgbFilm::set_pixels(Rect2i pixels) {
 
 void RgbFilm::start(ColorMode mode) {
     check_image_size(pixels_.width(), pixels_.height(), 3);
+    splats_.reset();
     output_from_sensor_ = sensor_.output_from_sensor(*space_, mode);
     const std::size_t count =
         static_cast<std::size_t>(pixels_.width()) * static_cast<std::size_t>(pixels_.height());
@@ -249,8 +266,9 @@ Image RgbFilm::image() const {
     auto out = image.values();
     for (std::size_t i = 0; i < sums_.size(); ++i) {
         const Sums& s = sums_[i];
-        if (s.count == 0) continue;
-        Vec3 rgb(output_from_sensor_ * s.filtered());
+        Vec3d measured = s.count > 0 ? s.filtered() : Vec3d();
+        if (splats_) measured += splats_->sum(i) * splat_scale_;
+        Vec3 rgb(output_from_sensor_ * measured);
         for (std::size_t c = 0; c < 3; ++c) out[3 * i + c] = rgb[static_cast<int>(c)];
     }
     return image;
