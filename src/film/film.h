@@ -38,11 +38,14 @@ struct Film {
     /// Whether light can be brought to any place, from any thread at any time, to be spread by the filter;
     /// the functions for such splats are for films that take them only.
     virtual bool takes_splats() const { return false; }
-    /// Makes the film ready for splats; after start().
-    virtual void start_splats(const Filter& /*filter*/) {}
+    /// Makes the film ready for splats; after start(). Those in layer 0 are part of the picture; layers 1 to
+    /// more_layers are pictures of their own.
+    virtual void start_splats(const Filter& /*filter*/, std::size_t /*more_layers*/ = 0) {}
     /// Adds a splat at a place in pixels (CameraSample::film), whose L must be finite. Only where there is
     /// light is anything added, so nobody knows of how many: it counts times set_splat_scale().
-    virtual void add_splat(Vec2 /*position*/, Spectrum /*L*/, const Wavelengths&) {}
+    virtual void add_splat(Vec2 /*position*/, Spectrum /*L*/, const Wavelengths&, std::size_t /*layer*/ = 0) {
+    }
+    virtual Image splat_image(std::size_t /*layer*/) const { return {}; }
     /// Whether a splat there touches a pixel.
     virtual bool splat_reaches(Vec2 /*position*/) const { return false; }
     virtual void set_splat_scale(double /*scale*/) {}

@@ -121,6 +121,7 @@ struct DiffuseAreaLight final : AreaLight {
         return {1 / area_, cosine_hemisphere_pdf(twosided ? std::abs(cosine) : cosine) / sides()};
     }
     bool is_delta() const override { return is_invisible_; }
+    bool has_extent() const override { return true; }
     Spectrum emitted(const Hit& hit, const Wavelengths& lambda) const override {
         return radiance(hit.ng, hit.wo, hit.uv, lambda);
     }

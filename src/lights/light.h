@@ -83,6 +83,8 @@ struct Light {
 
     /// Delta lights (points, directions) cannot be met by a ray.
     virtual bool is_delta() const { return false; }
+    /// Whether sample() looks at u.
+    virtual bool has_extent() const { return !is_delta(); }
     /// Infinite lights surround the scene and are seen by rays that leave it.
     virtual bool is_infinite() const { return false; }
     /// Infinitely far away: light from one direction is parallel.

@@ -32,7 +32,8 @@ class Renderer {
 
     RenderStats run() {
         world_.film->start(world_.mode);
-        if (world_.integrator->makes_splats()) world_.film->start_splats(*world_.filter);
+        if (world_.integrator->makes_splats())
+            world_.film->start_splats(*world_.filter, world_.integrator->splat_layers().size());
         if (auto whole = world_.integrator->whole_picture(world_.picture()))
             run_whole(*whole);
         else
