@@ -22,6 +22,14 @@ struct CameraRay {
     Spectrum weight = 1;
 };
 
+/// The way from a point of the scene to the camera.
+struct CameraConnection {
+    Vec3 p;            ///< where on the lens the camera ray to the point starts
+    Vec3 d;            ///< its direction, unit
+    Vec2 film;         ///< its place on the film, which may be outside of the picture
+    float density = 0; ///< of camera rays, as Camera::ray_density() has it
+};
+
 struct Camera {
     static constexpr std::string_view family_name = "camera";
     virtual ~Camera() = default;
@@ -29,6 +37,19 @@ struct Camera {
     virtual bool has_lens() const { return false; }
     /// nullopt where the film receives no light.
     virtual std::optional<CameraRay> ray(const CameraSample& sample) const = 0;
+    /// Whether light can be brought to it: sample_towards() and ray_density() are there. Rays of such cameras
+    /// weigh 1.
+    virtual bool receives_light() const { return false; }
+    /// The camera ray to a point at a time (s), from a place on the lens chosen with u; nullopt where the
+    /// camera does not look.
+    virtual std::optional<CameraConnection> sample_towards(Vec3 /*p*/, Vec2 /*u*/, float /*time*/) const {
+        return std::nullopt;
+    }
+    /// How dense camera rays are when their places are spread evenly over the whole film: of those that start
+    /// where this one does (or, when all are parallel, along it), per area across the ray at the distance t.
+    /// Since rays weigh 1, that is also the importance there (Veach 1997, section 8.3.2): what of light that
+    /// is measured by the whole film a unit of flux adds, over the density of choosing the place on the lens.
+    virtual float ray_density(const Ray& /*ray*/, float /*t*/) const { return 0; }
     /// The map whose rays these are; nullopt for cameras with a lens, or that bend straight lines.
     virtual std::optional<Projection> projection() const { return std::nullopt; }
 

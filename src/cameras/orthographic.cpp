@@ -4,7 +4,6 @@
 /// before and behind it the picture is in perspective, however small the lens, since all light goes through
 /// it.
 #include "cameras/screen.h"
-#include "math/warp.h"
 
 namespace alhazen {
 
@@ -20,15 +19,18 @@ class OrthographicCamera final : public FlatCamera {
         describe_common(f);
         f.example("small", {make_array("screenwindow", ValueType::real, std::vector<float>{-2, 2, -1, 1})});
     }
-    void finish(const Node& node, BuildContext& context) { finish_flat(node, context); }
+    void finish(const Node& node, BuildContext& context) {
+        if (finish_flat(node, context))
+            set_ray_plane(lensradius > 0 ? static_cast<double>(focaldistance) : 0, 1);
+    }
 
     std::optional<CameraRay> ray(const CameraSample& sample) const override {
         Vec2d s = screen(sample.film);
         float time = ray_time(sample.time);
         if (lensradius == 0) return make_ray({s.x, s.y, 0}, {0, 0, 1}, time);
-        Vec2d lens = Vec2d(sample_disk(sample.lens)) * static_cast<double>(lensradius);
-        return make_ray({lens.x, lens.y, 0}, {s.x - lens.x, s.y - lens.y, static_cast<double>(focaldistance)},
-                        time);
+        Vec2d on_lens = lens(sample.lens);
+        return make_ray({on_lens.x, on_lens.y, 0},
+                        {s.x - on_lens.x, s.y - on_lens.y, static_cast<double>(focaldistance)}, time);
     }
 
     std::optional<Projection> projection() const override {

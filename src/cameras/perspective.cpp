@@ -1,7 +1,6 @@
 /// The perspective camera: a pinhole, or a thin lens that is sharp at one distance (Pharr et al. 2023,
 /// section 5.2). Rays leave the origin through a window in the plane z = 1.
 #include "cameras/screen.h"
-#include "math/warp.h"
 
 namespace alhazen {
 
@@ -40,6 +39,8 @@ class PerspectiveCamera final : public FlatCamera {
             return;
         }
         half_size_ = std::tan(angle / 2 * (3.14159265358979323846 / 180));
+        const double plane = lensradius > 0 ? static_cast<double>(focaldistance) : 1;
+        set_ray_plane(plane, plane * half_size_);
     }
 
     std::optional<CameraRay> ray(const CameraSample& sample) const override {
@@ -47,8 +48,8 @@ class PerspectiveCamera final : public FlatCamera {
         Vec3d through(s.x, s.y, 1);
         float time = ray_time(sample.time);
         if (lensradius == 0) return make_ray({0, 0, 0}, through, time);
-        Vec2d lens = Vec2d(sample_disk(sample.lens)) * static_cast<double>(lensradius);
-        Vec3d from(lens.x, lens.y, 0);
+        Vec2d on_lens = lens(sample.lens);
+        Vec3d from(on_lens.x, on_lens.y, 0);
         return make_ray(from, through * static_cast<double>(focaldistance) - from, time);
     }
 

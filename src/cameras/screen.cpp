@@ -18,6 +18,7 @@ bool FlatCamera::finish_flat(const Node& node, BuildContext& context) {
     check_shutter(*this, node, context);
     world_from_camera_ = context.world_from_node;
     const Vec2d size(context.film_resolution);
+    resolution_ = size;
     const double aspect = frameaspectratio ? static_cast<double>(*frameaspectratio) : size.x / size.y;
     Vec2d lo = aspect > 1 ? Vec2d(-aspect, -1) : Vec2d(-1, -1 / aspect);
     Vec2d hi = -lo;
@@ -45,6 +46,41 @@ bool FlatCamera::finish_flat(const Node& node, BuildContext& context) {
 CameraRay FlatCamera::make_ray(Vec3d origin, Vec3d direction, float time) const {
     Vec3d d = world_from_camera_.vector(direction);
     return {{Vec3(world_from_camera_.point(origin)), Vec3(normalize(d)), infinity, time}, 1};
+}
+
+std::optional<CameraConnection> FlatCamera::sample_towards(Vec3 p, Vec2 u, float /*time*/) const {
+    const Vec3d point = world_from_camera_.inverse_point(Vec3d(p));
+    if (!(point.z > 0)) return std::nullopt;
+    const Vec2d on_lens = plane_z_ > 0 && lensradius > 0 ? lens(u) : Vec2d();
+    // Parallel rays start at the foot of the point.
+    const Vec3d from = plane_z_ > 0 ? Vec3d(on_lens.x, on_lens.y, 0) : Vec3d(point.x, point.y, 0);
+    const Vec3d v = point - from, on_plane = from + v * (plane_z_ / v.z);
+    const Vec3d d = world_from_camera_.vector(v);
+    CameraConnection c;
+    c.p = Vec3(world_from_camera_.point(from));
+    c.d = Vec3(normalize(d));
+    c.film = {static_cast<float>((on_plane.x / plane_scale_ - corner_.x) / step_.x),
+              static_cast<float>((on_plane.y / plane_scale_ - corner_.y) / step_.y)};
+    c.density = density(v, length(d));
+    return c;
+}
+
+float FlatCamera::ray_density(const Ray& ray, float t) const {
+    return density(world_from_camera_.inverse_vector(Vec3d(ray.d)), static_cast<double>(t));
+}
+
+// An area dA of the plane, seen along v = (x, y, z) reaching there, covers the solid angle det(M) z dA / |M
+// v|^3 of the world, M being the transformation from camera space. Parallel rays are M (0, 0, 1); an area dA
+// of their window is det(M) dA / |M (0, 0, 1)| across them.
+float FlatCamera::density(Vec3d v, double distance) const {
+    if (!(v.z > 0)) return 0;
+    const double determinant = std::abs(world_from_camera_.matrix().determinant3());
+    const double area =
+        std::abs(step_.x * step_.y) * resolution_.x * resolution_.y * plane_scale_ * plane_scale_;
+    if (plane_z_ == 0)
+        return static_cast<float>(length(world_from_camera_.vector(Vec3d(0, 0, 1))) / (determinant * area));
+    const double reach = length(world_from_camera_.vector(v * (plane_z_ / v.z)));
+    return static_cast<float>(reach * reach * reach / (determinant * plane_z_ * area * distance * distance));
 }
 
 // The inverse of screen(), over the distance to the window's plane: w times it, to be divided by w later.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cameras/camera.h"
+#include "math/warp.h"
 
 namespace alhazen {
 
@@ -25,6 +26,9 @@ struct FlatCamera : Camera {
     float focaldistance = 1e6f;
 
     bool has_lens() const final { return lensradius > 0; }
+    bool receives_light() const final { return plane_scale_ > 0; }
+    std::optional<CameraConnection> sample_towards(Vec3 p, Vec2 u, float time) const final;
+    float ray_density(const Ray& ray, float t) const final;
 
   protected:
     template <class T>
@@ -48,6 +52,15 @@ struct FlatCamera : Camera {
         return {corner_.x + static_cast<double>(film.x) * step_.x,
                 corner_.y + static_cast<double>(film.y) * step_.y};
     }
+    /// A place on the lens.
+    Vec2d lens(Vec2 u) const { return Vec2d(sample_disk(u)) * static_cast<double>(lensradius); }
+    /// Says where rays go, so that light can come back: from one place on the lens they are spread evenly
+    /// over a window in the plane at the distance z, whose size is the screen's times scale. z = 0: they are
+    /// parallel, and there is no lens.
+    void set_ray_plane(double z, double scale) {
+        plane_z_ = z;
+        plane_scale_ = scale;
+    }
     /// The map of a camera without lens whose window is scaled by half_size, in camera space.
     Projection projection_of(double half_size, bool is_perspective) const;
     float ray_time(float u) const { return lerp(u, shutteropen, shutterclose); }
@@ -56,7 +69,11 @@ struct FlatCamera : Camera {
     Transform world_from_camera_;
 
   private:
-    Vec2d corner_, step_;
+    /// What Camera::ray_density() is for a vector of camera space, at a distance in the world.
+    float density(Vec3d v, double distance) const;
+
+    Vec2d corner_, step_, resolution_{1, 1};
+    double plane_z_ = 0, plane_scale_ = 0;
 };
 
 } // namespace alhazen

@@ -63,11 +63,25 @@ std::int64_t peak_memory_bytes() {
     return std::int64_t{usage.ru_maxrss} * 1024;
 }
 
-void write_outputs(const World& world, const Image& image, const std::vector<std::string>& outputs) {
+WriteOptions write_options(const World& world) {
     WriteOptions options;
     options.depth = world.film->half_float() ? FloatDepth::half : FloatDepth::single;
     options.transfer = world.film->linear_transfer() ? Transfer::linear : Transfer::srgb;
     options.metadata["Software"] = "Alhazen " ALHAZEN_VERSION;
+    return options;
+}
+
+// The integrator's further pictures, under its names beside the first output; how many there are.
+std::size_t write_layers(const World& world, const std::string& first_output) {
+    const auto names = world.integrator->splat_layers();
+    const auto folder = std::filesystem::path(first_output).parent_path();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        write_image(folder / (names[i] + ".exr"), world.film->splat_image(i + 1), write_options(world));
+    return names.size();
+}
+
+void write_outputs(const World& world, const Image& image, const std::vector<std::string>& outputs) {
+    const WriteOptions options = write_options(world);
     for (const std::string& file : outputs) {
         try {
             write_image(file, image, options);
@@ -173,6 +187,7 @@ int run_render(RenderOptions& options) {
     RenderStats stats = render_with_progress(*world, options);
     Image image = world->film->image();
     write_outputs(*world, image, options.outputs);
+    const std::size_t layers = write_layers(*world, options.outputs.front());
     report_bad_samples(options, stats);
     if (!options.stats_file.empty()) write_stats(options, *world, stats, timing, messages);
     if (stats.cancelled && !options.quiet)
@@ -183,6 +198,8 @@ int run_render(RenderOptions& options) {
             fmt::print("{}: {} x {}, {} spp, {}, {:.2f} Mrays/s\n", file, image.width(), image.height(),
                        stats.samples, duration_text(stats.seconds),
                        static_cast<double>(stats.rays.total()) / 1e6 / std::max(stats.seconds, 1e-9));
+    if (layers > 0 && !options.quiet)
+        fmt::print("and {} pictures of the integrator's, as OpenEXR beside it\n", layers);
     if (options.show) show_picture(image, picture_for_viewer(*world, image, options.outputs));
     return stats.cancelled ? exit_interrupted : exit_ok;
 }

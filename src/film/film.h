@@ -6,6 +6,7 @@
 #include "base/bounds.h"
 #include "color/wavelengths.h"
 #include "describe/kind.h"
+#include "film/filter.h"
 #include "image/image.h"
 
 namespace alhazen {
@@ -33,6 +34,21 @@ struct Film {
     /// samples there could be (FilterSample); the pixel is the filtered L, and L itself where all samples
     /// agree.
     virtual void add(Vec2i pixel, Spectrum L, const Wavelengths& lambda, float weight) = 0;
+
+    /// Whether light can be brought to any place, from any thread at any time, to be spread by the filter;
+    /// the functions for such splats are for films that take them only.
+    virtual bool takes_splats() const { return false; }
+    /// Makes the film ready for splats; after start(). Those in layer 0 are part of the picture; layers 1 to
+    /// more_layers are pictures of their own.
+    virtual void start_splats(const Filter& /*filter*/, std::size_t /*more_layers*/ = 0) {}
+    /// Adds a splat at a place in pixels (CameraSample::film), whose L must be finite. Only where there is
+    /// light is anything added, so nobody knows of how many: it counts times set_splat_scale().
+    virtual void add_splat(Vec2 /*position*/, Spectrum /*L*/, const Wavelengths&, std::size_t /*layer*/ = 0) {
+    }
+    virtual Image splat_image(std::size_t /*layer*/) const { return {}; }
+    /// Whether a splat there touches a pixel.
+    virtual bool splat_reaches(Vec2 /*position*/) const { return false; }
+    virtual void set_splat_scale(double /*scale*/) {}
     /// What is there so far, as linear RGB: pixels().width() x pixels().height().
     virtual Image image() const = 0;
 };

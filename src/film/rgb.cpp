@@ -19,6 +19,7 @@
 #include "color/color_space.h"
 #include "color/sensor.h"
 #include "film/film.h"
+#include "film/splats.h"
 
 namespace alhazen {
 
@@ -70,9 +71,7 @@ class RgbFilm final : public Film {
 
     void start(ColorMode mode) override;
     void add(Vec2i pixel, Spectrum L, const Wavelengths& lambda, float weight) override {
-        Vec3 rgb = sensor_.to_sensor_rgb(L, lambda);
-        float largest = max_component(rgb);
-        if (largest > limit_) rgb *= limit_ / largest;
+        const Vec3 rgb = measured(L, lambda);
         Sums& s = sums_[index(pixel)];
         const double w = static_cast<double>(weight);
         s.rgb += Vec3d(rgb);
@@ -80,9 +79,28 @@ class RgbFilm final : public Film {
         s.weight += w;
         s.count += 1;
     }
+    bool takes_splats() const override { return true; }
+    void start_splats(const Filter& filter, std::size_t more_layers) override {
+        splats_.clear();
+        for (std::size_t i = 0; i <= more_layers; ++i) splats_.emplace_back(pixels_, filter);
+        splat_scale_ = 1;
+    }
+    void add_splat(Vec2 position, Spectrum L, const Wavelengths& lambda, std::size_t layer) override {
+        splats_[layer].add(position, measured(L, lambda));
+    }
+    bool splat_reaches(Vec2 position) const override {
+        return !splats_.empty() && splats_.front().reaches(position);
+    }
+    void set_splat_scale(double scale) override { splat_scale_ = scale; }
     Image image() const override;
+    Image splat_image(std::size_t layer) const override;
 
   private:
+    Vec3 measured(Spectrum L, const Wavelengths& lambda) const {
+        const Vec3 rgb = sensor_.to_sensor_rgb(L, lambda);
+        const float largest = max_component(rgb);
+        return largest > limit_ ? rgb * (limit_ / largest) : rgb;
+    }
     // One cache line.
     struct Sums {
         Vec3d rgb, weighted_rgb;
@@ -105,6 +123,12 @@ class RgbFilm final : public Film {
     Matrix3 output_from_sensor_;
     float limit_ = infinity;
     BigArray<Sums> sums_;
+    /// A picture of what the sensor measured at each pixel.
+    template <class Measured>
+    Image picture_of(Measured measured) const;
+
+    std::vector<Splats> splats_; ///< one a layer
+    double splat_scale_ = 1;
 };
 
 void RgbFilm::describe(Fields<RgbFilm>& f) {
@@ -232,6 +256,7 @@ void RgbFilm::set_pixels(Rect2i pixels) {
 
 void RgbFilm::start(ColorMode mode) {
     check_image_size(pixels_.width(), pixels_.height(), 3);
+    splats_.clear();
     output_from_sensor_ = sensor_.output_from_sensor(*space_, mode);
     const std::size_t count =
         static_cast<std::size_t>(pixels_.width()) * static_cast<std::size_t>(pixels_.height());
@@ -241,19 +266,30 @@ void RgbFilm::start(ColorMode mode) {
     });
 }
 
-Image RgbFilm::image() const {
+template <class Measured>
+Image RgbFilm::picture_of(Measured measured) const {
     Image image = Image::rgb_image(pixels_.width(), pixels_.height());
     image.info.origin = pixels_.lo;
     image.info.display_window = {{0, 0}, resolution()};
     if (space_ != &srgb_space()) image.info.metadata["color_space"] = space_->name;
     auto out = image.values();
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-        const Sums& s = sums_[i];
-        if (s.count == 0) continue;
-        Vec3 rgb(output_from_sensor_ * s.filtered());
+        const Vec3 rgb(output_from_sensor_ * measured(i));
         for (std::size_t c = 0; c < 3; ++c) out[3 * i + c] = rgb[static_cast<int>(c)];
     }
     return image;
+}
+
+Image RgbFilm::image() const {
+    return picture_of([this](std::size_t i) {
+        Vec3d measured = sums_[i].count > 0 ? sums_[i].filtered() : Vec3d();
+        if (!splats_.empty()) measured += splats_.front().sum(i) * splat_scale_;
+        return measured;
+    });
+}
+
+Image RgbFilm::splat_image(std::size_t layer) const {
+    return picture_of([&](std::size_t i) { return splats_[layer].sum(i) * splat_scale_; });
 }
 
 } // namespace

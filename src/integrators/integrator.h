@@ -17,8 +17,13 @@ struct Integrator {
     /// The radiance arriving against the ray (one sample of it), in path's wavelengths or RGB.
     virtual Task<Spectrum> radiance(Ray ray, PathContext& path) const = 0;
 
-    /// Called once when the scene is there, before anything is rendered.
-    virtual void prepare(const Scene& /*scene*/) {}
+    /// Called once when everything is there, before the film is started and anything is rendered.
+    virtual void prepare(const PictureOrder& /*picture*/) {}
+    /// True for those that bring light to the film themselves, by Film::add_splat: one path from the lights
+    /// for each sample of a pixel, or by a whole picture's own count. They need a camera that receives light.
+    virtual bool makes_splats() const { return false; }
+    /// Names of pictures that they splat beside the one that is wanted: the film's layers from 1 on.
+    virtual std::vector<std::string> splat_layers() const { return {}; }
     /// For integrators that make pictures as a whole: the work on this one. nullptr: the picture is made of
     /// radiance().
     virtual std::unique_ptr<PictureWork> whole_picture(const PictureOrder& /*picture*/) const {

@@ -44,7 +44,7 @@ class PathContext {
 
     /// The pair of random numbers for a point on the light; none are drawn for a light without size.
     Vec2 pair_for(const Light& light) {
-        if (!light.is_delta()) return samples.next2();
+        if (light.has_extent()) return samples.next2();
         samples.skip(2);
         return {};
     }

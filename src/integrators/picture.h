@@ -44,10 +44,20 @@ struct PictureOrder {
     const Scene& scene;
     const Camera& camera;
     Film& film; ///< started; its pixels are to be filled
+    const Filter& filter;
+    const Sampler& sampler; ///< prepared for the film and the samples
     ColorMode mode = ColorMode::rgb;
     int samples = 1; ///< a pixel
     std::uint64_t seed = 0;
+    int paths_in_flight = 1; ///< that a thread should follow at a time; does not change the picture
 };
+
+/// The part of the whole film that is rendered, whose pixels alone have samples and paths of their own.
+inline double rendered_fraction(const Film& film) {
+    const Rect2i part = film.pixels();
+    const Vec2i whole = film.resolution();
+    return static_cast<double>(part.width()) * part.height() / (static_cast<double>(whole.x) * whole.y);
+}
 
 /// The work on one picture. It keeps what it needs from one pass to the next.
 struct PictureWork {

@@ -104,10 +104,10 @@ struct Raster final : Integrator {
             if (*asked <= count) return count;
         return 16;
     }
-    void prepare(const Scene& scene) override {
-        lights_.emplace(scene);
+    void prepare(const PictureOrder& picture) override {
+        lights_.emplace(picture.scene);
         if (shadows)
-            shadow_maps_.emplace(scene, *lights_, ShadowMapOptions{shadow_resolution, shadow_radius});
+            shadow_maps_.emplace(picture.scene, *lights_, ShadowMapOptions{shadow_resolution, shadow_radius});
         shading_.emplace(*lights_, ShadingOptions{highlight, ambient.eval(Wavelengths::rgb())},
                          shadow_maps_ ? &*shadow_maps_ : nullptr);
     }

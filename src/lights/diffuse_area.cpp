@@ -4,6 +4,7 @@
 #include "lights/area_light.h"
 #include "lights/emission_image.h"
 #include "lights/light_parts.h"
+#include "math/warp.h"
 
 namespace alhazen {
 namespace {
@@ -89,7 +90,39 @@ struct DiffuseAreaLight final : AreaLight {
         s.primitive_v = point->uv.y;
         return s;
     }
+    std::optional<LeavingLight> sample_leaving(Vec2 u1, Vec2 u2, const Wavelengths& lambda,
+                                               float time) const override {
+        if (!shape_) return std::nullopt;
+        ShapeSample point = shape_->sample(primitive_, u1);
+        Vec3 side = point.ng;
+        if (twosided) {
+            // The first half of the numbers is for the front.
+            side = u2.x < 0.5f ? point.ng : -point.ng;
+            u2.x = std::min(2 * (u2.x < 0.5f ? u2.x : u2.x - 0.5f), one_minus_epsilon);
+        }
+        Vec3 w = Frame::from_z(side).to_world(sample_cosine_hemisphere(u2));
+        LeavingLight s;
+        s.cosine = abs_dot(w, point.ng);
+        s.L = radiance(point.ng, w, point.uv, lambda);
+        if (!is_invisible_) s.presence = presence({point.p, point.ng, point.uv});
+        s.L *= s.presence;
+        LeavingPdf pdf = pdf_leaving(point.ng, w);
+        if (s.L.is_black() || !(pdf.position > 0 && pdf.direction > 0)) return std::nullopt;
+        s.ray = {offset_origin(point.p, point.p_error, point.ng, w), w, infinity, time};
+        s.pdf_position = pdf.position;
+        s.pdf_direction = pdf.direction;
+        s.p = point.p;
+        s.p_error = point.p_error;
+        s.ng = point.ng;
+        s.uv = point.uv;
+        return s;
+    }
+    LeavingPdf pdf_leaving(Vec3 ng, Vec3 w) const override {
+        float cosine = dot(ng, w);
+        return {1 / area_, cosine_hemisphere_pdf(twosided ? std::abs(cosine) : cosine) / sides()};
+    }
     bool is_delta() const override { return is_invisible_; }
+    bool has_extent() const override { return true; }
     Spectrum emitted(const Hit& hit, const Wavelengths& lambda) const override {
         return radiance(hit.ng, hit.wo, hit.uv, lambda);
     }

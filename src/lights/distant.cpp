@@ -49,7 +49,20 @@ struct DistantLight final : Light {
         s.p = extent_.beyond(at.p, wi_);
         return s;
     }
+    std::optional<LeavingLight> sample_leaving(Vec2 u1, Vec2, const Wavelengths& lambda,
+                                               float time) const override {
+        LeavingLight s;
+        s.L = irradiance_.eval(lambda);
+        if (s.L.is_black() || extent_.radius == 0) return std::nullopt;
+        s.ray = {extent_.before(-wi_, u1), -wi_, infinity, time};
+        s.pdf_position = 1 / extent_.disk_area();
+        s.pdf_direction = 1;
+        s.p = s.ray.o;
+        return s;
+    }
+    LeavingPdf pdf_leaving(Vec3, Vec3) const override { return {1 / extent_.disk_area(), 1}; }
     bool is_delta() const override { return true; }
+    bool is_far() const override { return true; }
     Spectrum power(const Wavelengths& lambda) const override {
         return irradiance_.eval(lambda) * extent_.disk_area();
     }

@@ -31,8 +31,7 @@ struct InfiniteLight final : Light {
         f.example("measured", {make_float("illuminance", 10), make_float("scale", .5f)});
     }
     void finish(const Node& node, BuildContext& context) {
-        world_from_light_ = context.world_from_node;
-        determinant_ = static_cast<float>(std::abs(1 / world_from_light_.matrix().determinant3()));
+        space_ = LightSpace(context.world_from_node);
         if (filename.empty()) {
             // A uniform sky of luminance 1 gives a horizontal surface pi.
             float s = scale * (is_given(illuminance) ? *illuminance / pi : 1.0f);
@@ -49,8 +48,8 @@ struct InfiniteLight final : Light {
         if (map_) {
             auto drawn = map_->sample(u);
             s.L = map_->eval(drawn.texel, lambda) * map_scale_;
-            s.wi = normalize(world_from_light_.vector(drawn.w));
-            s.pdf = drawn.pdf * stretch(s.wi);
+            s.wi = space_.to_world(drawn.w);
+            s.pdf = drawn.pdf * space_.stretch(s.wi);
         } else {
             s.L = color_.eval(lambda);
             s.wi = sample_sphere(u);
@@ -63,10 +62,26 @@ struct InfiniteLight final : Light {
     bool is_infinite() const override { return true; }
     Spectrum escaped(Vec3 d, const Wavelengths& lambda) const override {
         if (!map_) return color_.eval(lambda);
-        return map_->eval(map_->texel_of(to_light(d)), lambda) * map_scale_;
+        return map_->eval(map_->texel_of(space_.to_light(d)), lambda) * map_scale_;
     }
     float pdf_escaped(const LightReceiver&, Vec3 d) const override {
-        return map_ ? map_->pdf(to_light(d)) * stretch(d) : sphere_pdf();
+        return map_ ? map_->pdf(space_.to_light(d)) * space_.stretch(d) : sphere_pdf();
+    }
+    /// From a place of the disk that the light of the drawn direction comes through.
+    std::optional<LeavingLight> sample_leaving(Vec2 u1, Vec2 u2, const Wavelengths& lambda,
+                                               float time) const override {
+        auto from = sample({extent_.center, {}}, u2, lambda);
+        if (!from || extent_.radius == 0) return std::nullopt;
+        LeavingLight s;
+        s.ray = {extent_.before(-from->wi, u1), -from->wi, infinity, time};
+        s.L = from->L;
+        s.pdf_position = 1 / extent_.disk_area();
+        s.pdf_direction = from->pdf;
+        s.p = s.ray.o;
+        return s;
+    }
+    LeavingPdf pdf_leaving(Vec3, Vec3 w) const override {
+        return {1 / extent_.disk_area(), pdf_escaped({}, -w)};
     }
     Spectrum power(const Wavelengths& lambda) const override {
         return color_.eval(lambda) * (4 * pi * extent_.disk_area());
@@ -99,19 +114,10 @@ struct InfiniteLight final : Light {
         color_ =
             calibrated(SpectrumValue::illuminant_rgb(srgb_space(), map_->mean_rgb()), s, context.color_mode);
     }
-    Vec3 to_light(Vec3 d) const { return normalize(world_from_light_.inverse_vector(d)); }
-    /// Solid angle in the light's space over that in the world around d; 1 unless the transformation
-    /// stretches.
-    float stretch(Vec3 d) const {
-        float l2 = length_squared(world_from_light_.inverse_vector(d));
-        return determinant_ / (l2 * std::sqrt(l2));
-    }
-
     SpectrumValue color_; ///< radiance; of a map, its mean
     std::shared_ptr<const EnvironmentMap> map_;
     float map_scale_ = 1;
-    Transform world_from_light_;
-    float determinant_ = 1; ///< of the transformation from world to light, without sign
+    LightSpace space_;
     SceneExtent extent_;
 };
 

@@ -27,6 +27,31 @@ struct LightSample {
     float primitive_u = 0, primitive_v = 0;
 };
 
+/// Light that sets out from a light: the beginning of a path that goes with the light.
+struct LeavingLight {
+    Ray ray; ///< into the scene; unit direction
+    Spectrum
+        L; ///< radiance along the ray; of points the intensity, of distant lights the irradiance across it
+    float pdf_position = 0; ///< per area of the surface, or of the disk far light comes through; 1 for points
+    float pdf_direction = 0; ///< per steradian; 1 for distant lights
+    Vec3 p, p_error;         ///< where on the light, as in LightSample
+    Vec3 ng;                 ///< normal there; zero when not on a surface
+    Vec2 uv;
+    float cosine = 1;   ///< of the ray and ng, without sign; 1 when not on a surface
+    float presence = 1; ///< the chance that the surface is there, by its alpha; L counts it in already
+    /// False for light that keeps its strength at any distance, unlike real light: the further its rays have
+    /// spread, the more they carry, by the distance squared.
+    bool fades = true;
+
+    /// The flux that the ray stands for.
+    Spectrum flux() const { return L * (cosine / (pdf_position * pdf_direction)); }
+};
+
+/// The densities with which sample_leaving() gives a ray.
+struct LeavingPdf {
+    float position = 0, direction = 0;
+};
+
 /// Where a light is and which way it shines: what the light BVH needs (Conty Estevez and Kulla 2018,
 /// section 4.1).
 struct LightBounds {
@@ -49,10 +74,21 @@ struct Light {
     virtual std::optional<LightSample> sample(const LightReceiver& at, Vec2 u,
                                               const Wavelengths& lambda) const = 0;
 
+    /// Light leaving the light, its place chosen with u1 and its direction with u2; nullopt when none does.
+    virtual std::optional<LeavingLight> sample_leaving(Vec2 u1, Vec2 u2, const Wavelengths& lambda,
+                                                       float time) const = 0;
+    /// The densities of that for light leaving along w (unit); ng is the normal at an area light's point. A
+    /// point's position and a distant light's direction have density 1, as other ones are never asked for.
+    virtual LeavingPdf pdf_leaving(Vec3 ng, Vec3 w) const = 0;
+
     /// Delta lights (points, directions) cannot be met by a ray.
     virtual bool is_delta() const { return false; }
+    /// Whether sample() looks at u.
+    virtual bool has_extent() const { return !is_delta(); }
     /// Infinite lights surround the scene and are seen by rays that leave it.
     virtual bool is_infinite() const { return false; }
+    /// Infinitely far away: light from one direction is parallel.
+    virtual bool is_far() const { return is_infinite(); }
 
     /// Area lights: radiance leaving the hit in direction hit.wo.
     virtual Spectrum emitted(const Hit& /*hit*/, const Wavelengths& /*lambda*/) const { return 0; }

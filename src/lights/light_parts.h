@@ -6,9 +6,11 @@
 #include <optional>
 
 #include "base/bounds.h"
+#include "base/frame.h"
 #include "base/transform.h"
 #include "color/spectrum_value.h"
 #include "describe/spectrum_parameter.h"
+#include "math/warp.h"
 
 namespace alhazen {
 
@@ -56,17 +58,52 @@ inline bool keeps_angles(const Transform& t) {
            near(dot(y, z), 0) && near(dot(z, x), 0);
 }
 
+/// A light's own space, for directions.
+class LightSpace {
+  public:
+    LightSpace() = default;
+    explicit LightSpace(const Transform& world_from_light)
+        : world_from_light_(world_from_light),
+          determinant_(static_cast<float>(std::abs(1 / world_from_light.matrix().determinant3()))) {}
+
+    Vec3 to_light(Vec3 d) const { return normalize(world_from_light_.inverse_vector(d)); }
+    Vec3 to_world(Vec3 w) const { return normalize(world_from_light_.vector(w)); }
+    /// Solid angle in the light's space over that in the world around the unit vector d of the world; 1
+    /// unless the transformation stretches.
+    float stretch(Vec3 d) const {
+        float l2 = length_squared(world_from_light_.inverse_vector(d));
+        return determinant_ / (l2 * std::sqrt(l2));
+    }
+    const Transform& world_from_light() const { return world_from_light_; }
+
+  private:
+    Transform world_from_light_;
+    float determinant_ = 1; ///< of the transformation from world to light, without sign
+};
+
 /// The sphere around the scene, which infinitely distant light shines through.
 struct SceneExtent {
+    Vec3 center;
     float radius = 0;
 
-    void set(const Bounds3& scene) { radius = bounding_sphere(scene).radius; }
+    void set(const Bounds3& scene) {
+        Sphere3 sphere = bounding_sphere(scene);
+        center = sphere.center;
+        radius = sphere.radius;
+    }
     /// A point from p along the unit vector w that no part of the scene lies behind (p being in the scene).
     Vec3 beyond(Vec3 p, Vec3 w) const {
         // A little more than the diameter, since shadow rays stop a little short.
         return p + w * (radius > 0 ? 2.01f * radius : 1.0f);
     }
     float disk_area() const { return pi * radius * radius; }
+    /// A point before the scene from which a ray along the unit vector d shines through it: of a disk as
+    /// large as the sphere, all of it alike.
+    Vec3 before(Vec3 d, Vec2 u) const {
+        Vec2 disk = sample_disk(u) * radius;
+        Frame frame = Frame::from_z(d);
+        return center + frame.x * disk.x + frame.y * disk.y - d * (1.01f * radius);
+    }
 };
 
 } // namespace alhazen

@@ -1,6 +1,7 @@
 /// A light without size that shines alike in all directions: a bulb far smaller than its distance (Pharr et
 /// al. 2023, section 12.2).
 #include "lights/point_like.h"
+#include "math/warp.h"
 
 namespace alhazen {
 namespace {
@@ -38,6 +39,13 @@ struct PointLight final : PointLike {
             return falloff == Falloff::none ? 1.0f : 1 / to_light.distance_squared;
         });
     }
+    std::optional<LeavingLight> sample_leaving(Vec2, Vec2 u2, const Wavelengths& lambda,
+                                               float time) const override {
+        auto s = leave_point(sample_sphere(u2), 1, sphere_pdf(), lambda, time);
+        if (s) s->fades = falloff != Falloff::none;
+        return s;
+    }
+    LeavingPdf pdf_leaving(Vec3, Vec3) const override { return {1, sphere_pdf()}; }
     std::optional<LightBounds> bounds() const override { return point_bounds(); }
 };
 

@@ -50,6 +50,18 @@ struct PointLike : Light {
         s.p = p_;
         return s;
     }
+    /// Light along w (unit, drawn with the density), the intensity times the factor.
+    std::optional<LeavingLight> leave_point(Vec3 w, float factor, float pdf, const Wavelengths& lambda,
+                                            float time) const {
+        LeavingLight s;
+        s.L = intensity_.eval(lambda) * factor;
+        if (s.L.is_black() || !(pdf > 0)) return std::nullopt;
+        s.ray = {p_, w, infinity, time};
+        s.pdf_position = 1;
+        s.pdf_direction = pdf;
+        s.p = p_;
+        return s;
+    }
     /// For a light that shines everywhere.
     LightBounds point_bounds() const {
         LightBounds b;

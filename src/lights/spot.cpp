@@ -1,6 +1,7 @@
 /// A light without size that shines into a cone, full in the middle and fading smoothly towards the rim
 /// (Pharr et al. 2023, section 12.2.1).
 #include "lights/point_like.h"
+#include "math/density.h"
 
 namespace alhazen {
 namespace {
@@ -45,21 +46,30 @@ struct SpotLight final : PointLike {
         float full = std::min(std::abs(coneangle - conedeltaangle), coneangle);
         cos_end_ = std::cos(radians(coneangle));
         cos_full_ = std::cos(radians(full));
-        world_from_light_ = context.world_from_node;
+        space_ = LightSpace(context.world_from_node);
         place(solid_angle(), context);
     }
 
     std::optional<LightSample> sample(const LightReceiver& at, Vec2,
                                       const Wavelengths& lambda) const override {
         return sample_point(at, lambda, [&](const Direction& to_light) {
-            Vec3 w = normalize(world_from_light_.inverse_vector(-to_light.w));
-            return smooth_step(dot(w, axis_), cos_end_, cos_full_) / to_light.distance_squared;
+            return falloff(space_.to_light(-to_light.w)) / to_light.distance_squared;
         });
+    }
+    std::optional<LeavingLight> sample_leaving(Vec2, Vec2 u2, const Wavelengths& lambda,
+                                               float time) const override {
+        if (solid_angle() == 0) return std::nullopt;
+        Vec3 local = sample_falloff(u2), w = space_.to_world(local);
+        return leave_point(w, falloff(local), pdf_leaving({}, w).direction, lambda, time);
+    }
+    /// In proportion to the light's falloff.
+    LeavingPdf pdf_leaving(Vec3, Vec3 w) const override {
+        return {1, falloff(space_.to_light(w)) / solid_angle() * space_.stretch(w)};
     }
     std::optional<LightBounds> bounds() const override {
         LightBounds b = point_bounds();
-        if (!keeps_angles(world_from_light_)) return b;
-        b.axis = normalize(world_from_light_.vector(axis_));
+        if (!keeps_angles(space_.world_from_light())) return b;
+        b.axis = space_.to_world(axis_);
         b.cos_normals = cos_full_;
         // A little wider than the rim, so that rounding never cuts into it.
         b.cos_falloff = std::cos(std::min(std::acos(cos_end_) - std::acos(cos_full_) + 2e-3f, pi));
@@ -67,11 +77,24 @@ struct SpotLight final : PointLike {
     }
 
   private:
+    /// Of the intensity, along w in the light's space.
+    float falloff(Vec3 w) const { return smooth_step(dot(w, axis_), cos_end_, cos_full_); }
+    Vec3 sample_falloff(Vec2 u) const {
+        const float full = 2 * pi * (1 - cos_full_) / solid_angle();
+        // 1 - cos, which keeps its digits in narrow cones.
+        float h = u.x * solid_angle() / (2 * pi);
+        if (u.x >= full) {
+            float t = sample_smooth_step(std::min((u.x - full) / (1 - full), 1.0f));
+            h = lerp(t, 1 - cos_end_, 1 - cos_full_);
+        }
+        float sine = safe_sqrt(h * (2 - h)), phi = 2 * pi * u.y;
+        return Frame::from_z(axis_).to_world({sine * std::cos(phi), sine * std::sin(phi), 1 - h});
+    }
     /// Integral of the falloff over directions: the full cone, and half of the rim, about whose middle the
     /// cubic is point symmetric.
     float solid_angle() const { return 2 * pi * ((1 - cos_full_) + (cos_full_ - cos_end_) / 2); }
 
-    Transform world_from_light_;
+    LightSpace space_;
     Vec3 axis_{0, 0, 1};
     float cos_full_ = 1, cos_end_ = 1;
 };

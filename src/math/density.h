@@ -68,6 +68,20 @@ inline float invert_linear(float x, float a, float b) {
     return a + b <= 0 ? x : x * (a * (2 - x) + b * x) / (a + b);
 }
 
+/// The smooth step x^2 (3 - 2 x) from 0 at x = 0 to 1 at x = 1, doubled to integrate to 1.
+inline float smooth_step_pdf(float x) {
+    return x < 0 || x > 1 ? 0 : 2 * x * x * (3 - 2 * x);
+}
+inline float invert_smooth_step(float x) {
+    return x * x * x * (2 - x);
+}
+inline float sample_smooth_step(float u) {
+    // Newton's method on a convex function from the right of its root, and near it: no step goes too far.
+    float x = std::cbrt(u);
+    for (int i = 0; i < 5 && x > 0; ++i) x -= (invert_smooth_step(x) - u) / smooth_step_pdf(x);
+    return std::clamp(x, 0.0f, 1.0f);
+}
+
 /// Bilinear over the unit square from the heights at (0,0), (1,0), (0,1), (1,1), all >= 0. All 0 counts as
 /// uniform.
 using BilinearHeights = std::array<float, 4>;

@@ -32,9 +32,9 @@ class Renderer {
 
     RenderStats run() {
         world_.film->start(world_.mode);
-        PictureOrder picture{*world_.scene, *world_.camera, *world_.film,
-                             world_.mode,   world_.spp,     world_.seed};
-        if (auto whole = world_.integrator->whole_picture(picture))
+        if (world_.integrator->makes_splats())
+            world_.film->start_splats(*world_.filter, world_.integrator->splat_layers().size());
+        if (auto whole = world_.integrator->whole_picture(world_.picture()))
             run_whole(*whole);
         else
             run_samples();
@@ -58,6 +58,8 @@ class Renderer {
             auto pass_start = Clock::now();
             run_pass();
             done_ += pass_;
+            // Each sample came with one path from the lights, whose light the whole film measures.
+            world_.film->set_splat_scale(1 / (rendered_fraction(*world_.film) * done_));
             last_pass_ = seconds_since(pass_start);
             report(static_cast<double>(done_) / world_.spp, true);
             if (is_cancelled()) break;

@@ -7,6 +7,7 @@
 #include "formats/ply.h"
 #include "render/accelerator.h"
 #include "render/build_scene.h"
+#include "render/flight.h"
 #include "sdf/sdf_set.h"
 
 namespace alhazen {
@@ -84,6 +85,26 @@ float exposure_time(const CameraNode& camera) {
         return v && v->size() == 1 ? v->front() : otherwise;
     };
     return number("shutterclose", 1) - number("shutteropen", 0);
+}
+
+// Light that is brought to the camera needs one that can say where on the film it arrives, and a film that
+// takes it.
+void check_splats(const World& world, const Node& integrator, const CameraNode& camera, const Node& film,
+                  BuildContext& context) {
+    if (!world.integrator || !world.integrator->makes_splats()) return;
+    const std::string who =
+        fmt::format("integrator \"{}\" brings light from the lights to the camera", integrator.type);
+    if (world.camera && !world.camera->receives_light())
+        context.messages.add_error(
+            camera.node.place,
+            fmt::format("{}, which is not possible with camera \"{}\"; use a \"perspective\" or "
+                        "\"orthographic\" camera, or integrator \"path\"",
+                        who, camera.node.type));
+    if (world.film && !world.film->takes_splats())
+        context.messages.add_error(
+            film.place, fmt::format("{}, which is not possible with film \"{}\"; use film \"rgb\", or "
+                                    "integrator \"path\"",
+                                    who, film.type));
 }
 
 std::uint64_t find_seed(const SceneDescription& description, const RenderSettings& settings) {
@@ -179,6 +200,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     world->camera = make_camera(*camera, context);
     world->filter = filter_kinds().make(with_default(description.filter, "gaussian"), context, "gaussian");
     add_sampler(*world, description, settings, context);
+    check_splats(*world, description.integrator, *camera, description.film, context);
 
     Node fallback;
     fallback.type = "diffuse";
@@ -203,7 +225,9 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
                              "this integrator does not see participating media, of which the scene has some; "
                              "volpath does");
     world->scene->set_light_chooser(world->integrator->light_sampler());
-    world->integrator->prepare(*world->scene);
+    world->paths_in_flight =
+        settings.paths_in_flight > 0 ? settings.paths_in_flight : default_paths_in_flight(*world->scene);
+    world->integrator->prepare(world->picture());
     return world;
 }
 

@@ -31,6 +31,11 @@ struct World {
     std::unique_ptr<Integrator> integrator;
     int spp = 1;
     std::uint64_t seed = 0;
+    int paths_in_flight = 1;
+
+    PictureOrder picture() const {
+        return {*scene, *camera, *film, *filter, *sampler, mode, spp, seed, paths_in_flight};
+    }
 };
 
 /// Builds the world; throws SceneError with every error found. Warnings stay in messages.

@@ -78,7 +78,7 @@ Shape "sphere" "float radius" 2
 
 std::vector<Case> all_cases() {
     std::vector<Case> cases;
-    for (const char* integrator : {"path", "simplepath", "randomwalk"})
+    for (const char* integrator : {"path", "simplepath", "randomwalk", "bdpt"})
         for (ColorMode mode : {ColorMode::rgb, ColorMode::spectral})
             cases.push_back({integrator, "zsobol", mode});
     for (const std::string& sampler : sampler_kinds().names())

@@ -201,6 +201,15 @@ TEST(Density, Linear) {
     }
 }
 
+TEST(Density, SmoothStep) {
+    EXPECT_GT(testing_support::chi_square_1d(
+                  sample_smooth_step, [](float x) { return smooth_step_pdf(x); }, 0, 1),
+              p_threshold);
+    for (float u : {0.0f, 1e-30f, 1e-6f, 0.3f, 0.5f, 0.999f, one_minus_epsilon, 1.0f})
+        EXPECT_NEAR(invert_smooth_step(sample_smooth_step(u)), u, 2e-6f);
+    EXPECT_EQ(sample_smooth_step(0), 0);
+}
+
 TEST(Density, Bilinear) {
     for (const BilinearHeights& w : {BilinearHeights{1, 2, 3, 4}, BilinearHeights{0, 1, 0, 0},
                                      BilinearHeights{5, 0, 0, 5}, BilinearHeights{0, 0, 0, 0}}) {
