@@ -52,6 +52,16 @@ void print(const ReferenceComparison& c) {
     std::fflush(stdout);
 }
 
+/// Whether the scene agrees with its reference; records and pictures go into the folder.
+bool compare(const std::filesystem::path& scene, const ReferenceComparisonOptions& options, const std::filesystem::path& out) {
+    const ReferenceComparison c = compare_with_reference(scene, options);
+    print(c);
+    write_image(out / (c.scene + ".exr"), c.ours);
+    write_image(out / (c.scene + ".png"), side_by_side(c));
+    write_file(out / (c.scene + ".json"), to_json(c).dump(2) + "\n");
+    return agrees(c);
+}
+
 int run(Arguments a) {
     const std::filesystem::path scenes = a.scenes, out = a.out;
     if (!a.from_records && !std::filesystem::exists(scenes)) {
@@ -64,12 +74,13 @@ int run(Arguments a) {
     bool all_agree = true;
     for (const SceneFacts* facts : list) {
         if (a.from_records) break;
-        const ReferenceComparison c = compare_with_reference(scenes / facts->name, a.options);
-        print(c);
-        all_agree = all_agree && agrees(c);
-        write_image(out / (c.scene + ".exr"), c.ours);
-        write_image(out / (c.scene + ".png"), side_by_side(c));
-        write_file(out / (c.scene + ".json"), to_json(c).dump(2) + "\n");
+        try {
+            all_agree = compare(scenes / facts->name, a.options, out) && all_agree;
+        } catch (const std::exception& e) {
+            // The others may do.
+            fmt::print(stderr, "{}: error: {}\n", facts->name, e.what());
+            all_agree = false;
+        }
     }
     if (!a.page.empty()) write_validation_page(out, a.page);
     return all_agree ? 0 : 1;

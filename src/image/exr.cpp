@@ -96,7 +96,7 @@ Rect2i to_rect(const Imath::Box2i& box) {
 void set_color_space(const Imf::Header& header, Image& image) {
     if (!Imf::hasChromaticities(header)) return;
     const Imf::Chromaticities& c = Imf::chromaticities(header);
-    auto distance = [](Imath::V2f a, Vec2d b) {
+    auto distance = [](const Imath::V2f& a, Vec2d b) {
         return std::hypot(static_cast<double>(a.x) - b.x, static_cast<double>(a.y) - b.y);
     };
     constexpr double near = 2e-3; // files round what standards say
