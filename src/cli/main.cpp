@@ -15,7 +15,9 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "Alhazen " ALHAZEN_VERSION);
     app.set_help_flag("-h,--help", "show this text");
     app.require_subcommand(1);
-    app.failure_message(CLI::FailureMessage::simple);
+    app.failure_message([](const CLI::App* failed, const CLI::Error& e) {
+        return "alhazen: error: " + CLI::FailureMessage::simple(failed, e);
+    });
     Action action;
     add_render_command(app, action);
     add_info_command(app, action);

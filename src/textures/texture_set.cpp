@@ -46,7 +46,18 @@ std::shared_ptr<const Family> make_node(const KindList<Family>& kinds, const Tex
     const TextureUse* outer_use = context.texture_use;
     context.world_from_node = Transform(description.world_from_texture.start);
     context.texture_use = &use;
-    std::shared_ptr<const Family> node = kinds.make(description.node, context, substitute);
+    std::shared_ptr<const Family> node;
+    if (description.node.type == "ptex") {
+        // Known to scenes, but no packaged library reads its files.
+        context.messages.add_unsupported(
+            description.node.place,
+            "textures of type \"ptex\" cannot be read; bake them into images for \"imagemap\"", substitute);
+        Node plain;
+        plain.type = substitute;
+        if (context.messages.lenient) node = kinds.make(plain, context, substitute);
+    } else {
+        node = kinds.make(description.node, context, substitute);
+    }
     context.world_from_node = outer_transform;
     context.texture_use = outer_use;
     return node;

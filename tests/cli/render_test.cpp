@@ -169,7 +169,7 @@ TEST_F(Render, InterruptWritesTheImageSoFar) {
 }
 
 TEST_F(Render, ArgumentsThatAreWrong) {
-    expect_error("render", "SCENE is required");
+    expect_error("render", "alhazen: error: SCENE is required");
     expect_error("render none.pbrt", "none.pbrt: error: cannot read the scene: no such file");
     expect_error("render .", "error: ");
     expect_error("render scene.pbrt -o a.gif", "cannot write \"a.gif\": the suffix must be one of .exr");

@@ -104,7 +104,8 @@ class LbvhBuilder {
         return std::max(1u, std::min({options.leaf_size, options.block, Tree::max_leaf_size}));
     }
     float tests(std::uint32_t primitives) const {
-        return static_cast<float>((primitives + options_.block - 1) / options_.block);
+        const std::uint32_t blocks = (primitives + options_.block - 1) / options_.block;
+        return static_cast<float>(blocks);
     }
 
     void make_leaf(std::span<const Bounds3> boxes, std::span<const MortonKey> keys, std::size_t run) {

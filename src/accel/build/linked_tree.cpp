@@ -38,7 +38,8 @@ class Finisher {
     };
 
     float tests(std::uint32_t primitives) const {
-        return static_cast<float>((primitives + block_ - 1) / block_);
+        const std::uint32_t blocks = (primitives + block_ - 1) / block_;
+        return static_cast<float>(blocks);
     }
 
     void measure(std::uint32_t i, int depth) {

@@ -168,6 +168,19 @@ TEST_F(TextureTest, DuplicateNamesAreErrors) {
     EXPECT_THAT(more.list().at(0).text, HasSubstr("the spectrum texture \"t\" is already defined"));
 }
 
+TEST_F(TextureTest, PtexSaysWhatToDo) {
+    build({texture_node("ptex", {make_string("filename", "x.ptx")}, true)});
+    EXPECT_THAT(first_message(),
+                HasSubstr("\"ptex\" cannot be read; bake them into images for \"imagemap\""));
+    Messages lenient;
+    lenient.lenient = true;
+    BuildContext context{lenient};
+    TextureSet set;
+    set.build({texture_node("ptex", {make_string("filename", "x.ptx")}, true)}, context);
+    EXPECT_NE(set.find_spectrum("t", SpectrumRole::albedo, &lenient), nullptr);
+    EXPECT_EQ(lenient.warnings().size(), 1u);
+}
+
 TEST_F(TextureTest, UnknownKindIsAnErrorOrAConstant) {
     build({texture_node("marbel", {}, true)});
     EXPECT_THAT(first_message(), HasSubstr("unknown spectrum texture \"marbel\""));
@@ -175,7 +188,7 @@ TEST_F(TextureTest, UnknownKindIsAnErrorOrAConstant) {
     lenient.lenient = true;
     BuildContext context{lenient};
     TextureSet set;
-    set.build({texture_node("ptex", {make_float("variation", 2)}, true)}, context);
+    set.build({texture_node("marbel", {make_float("variation", 2)}, true)}, context);
     EXPECT_NE(set.find_spectrum("t", SpectrumRole::albedo, &lenient), nullptr);
     EXPECT_EQ(lenient.warnings().size(), 1u);
     EXPECT_EQ(lenient.error_count(), 0u);
