@@ -130,16 +130,16 @@ class Fields {
     template <class C, class M>
     Refine field(std::string name, M C::*member, std::string meaning) {
         static_assert(std::is_base_of_v<C, T>);
-        Field f;
-        f.doc.name = std::move(name);
-        f.doc.type = FieldType<M>::type_text();
-        f.doc.default_text = FieldType<M>::default_text(defaults_.*member);
-        f.doc.meaning = std::move(meaning);
-        f.read = [member](T& object, const Parameter& parameter, BuildContext& context) {
-            FieldType<M>::read(object.*member, parameter, context);
-        };
-        fields_.push_back(std::move(f));
-        return Refine(fields_.back().doc);
+        return add(
+            std::move(name), [member](T& object) -> M& { return object.*member; }, std::move(meaning));
+    }
+    /// A member of a part: a struct that several kinds have, or one has several of.
+    template <class C, class P, class M>
+    Refine field(std::string name, P C::*part, M P::*member, std::string meaning) {
+        static_assert(std::is_base_of_v<C, T>);
+        return add(
+            std::move(name), [part, member](T& object) -> M& { return object.*part.*member; },
+            std::move(meaning));
     }
 
     Fields& example(std::string name, std::vector<Parameter> parameters) {
@@ -155,6 +155,21 @@ class Fields {
     }
 
   private:
+    template <class Get>
+    Refine add(std::string name, Get get, std::string meaning) {
+        using M = std::remove_reference_t<std::invoke_result_t<Get, T&>>;
+        Field f;
+        f.doc.name = std::move(name);
+        f.doc.type = FieldType<M>::type_text();
+        f.doc.default_text = FieldType<M>::default_text(get(defaults_));
+        f.doc.meaning = std::move(meaning);
+        f.read = [get](T& object, const Parameter& parameter, BuildContext& context) {
+            FieldType<M>::read(get(object), parameter, context);
+        };
+        fields_.push_back(std::move(f));
+        return Refine(fields_.back().doc);
+    }
+
     T defaults_{};
     std::string about_;
     std::vector<Field> fields_;

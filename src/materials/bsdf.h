@@ -71,6 +71,11 @@ struct Bsdf {
                                              TransportMode mode = TransportMode::radiance) const = 0;
     /// The parts it has.
     virtual Lobes lobes() const = 0;
+    /// Where true, eval().f is random with the BSDF as its mean (the same for the same directions and place),
+    /// sample() gives an f such that f / pdf has the right mean in each direction, and pdf is a density near
+    /// that of its directions: the same number from sample() and eval(), which is all that weighing them
+    /// needs.
+    virtual bool is_stochastic() const { return false; }
     /// Widens narrow lobes, so that paths which are hard to sample are blurred instead of missed.
     virtual void regularize() {}
 

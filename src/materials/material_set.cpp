@@ -12,10 +12,8 @@ namespace {
 struct Substitute {
     std::string_view unknown, known;
 };
-constexpr Substitute substitutes[] = {{"coatedconductor", "conductor"},
-                                      {"metal", "conductor"},
-                                      {"mirror", "conductor"},
-                                      {"glass", "dielectric"}};
+constexpr Substitute substitutes[] = {
+    {"metal", "conductor"}, {"mirror", "conductor"}, {"glass", "dielectric"}};
 
 std::string_view substitute_for(std::string_view type) {
     for (const Substitute& s : substitutes)

@@ -32,6 +32,13 @@ class TrowbridgeReitz {
         if (ay_ < 0.3f) ay_ = std::clamp(2 * ay_, 0.1f, 0.3f);
     }
 
+    /// With the slopes of another landscape added, their squares scaled by factor.
+    TrowbridgeReitz widened_by(const TrowbridgeReitz& other, float factor) const {
+        return {std::sqrt(sqr(ax_) + factor * sqr(other.ax_)), std::sqrt(sqr(ay_) + factor * sqr(other.ay_))};
+    }
+    float alpha_x() const { return ax_; }
+    float alpha_y() const { return ay_; }
+
     /// Area of facets with normal wm per area of the flat surface and solid angle.
     float density(Vec3 wm) const {
         float cos2 = sqr(wm.z);

@@ -1,33 +1,46 @@
-/// The roughness parameters that metals and glasses share.
+/// The roughness parameters that metals, glasses and coats share.
 #pragma once
 
 #include <optional>
+#include <string>
 
-#include "materials/material.h"
 #include "materials/microfacet.h"
+#include "textures/texture.h"
 
 namespace alhazen {
 
-/// A base of materials with microfacets.
-struct RoughMaterial : Material {
+/// How rough a surface is, along and across; a part of materials with microfacets.
+struct Roughness {
     FloatTexture roughness{0};
     std::optional<FloatTexture> uroughness, vroughness;
-    bool remaproughness = true;
 
+    /// Parameters of T, their names after a prefix.
     template <class T>
-    static void describe_roughness(Fields<T>& f) {
-        f.field("roughness", &T::roughness, "0: perfectly smooth; 1: dull").at_least(0);
-        f.field("uroughness", &T::uroughness, "roughness along u").at_least(0).otherwise("roughness");
-        f.field("vroughness", &T::vroughness, "roughness along v").at_least(0).otherwise("roughness");
+    static void describe(Fields<T>& f, Roughness T::*part, const std::string& prefix = "") {
+        f.field(prefix + "roughness", part, &Roughness::roughness, "0: perfectly smooth; 1: dull")
+            .at_least(0);
+        f.field(prefix + "uroughness", part, &Roughness::uroughness, "roughness along u")
+            .at_least(0)
+            .otherwise(prefix + "roughness");
+        f.field(prefix + "vroughness", part, &Roughness::vroughness, "roughness along v")
+            .at_least(0)
+            .otherwise(prefix + "roughness");
+    }
+    template <class T>
+    static void describe_remap(Fields<T>& f) {
         f.field("remaproughness", &T::remaproughness,
                 "true: microfacet alpha is the square root of the roughness; false: it is the roughness");
     }
 
-    bool needs_parameters() const override { return uroughness || vroughness || !roughness.is_constant(); }
-    TrowbridgeReitz microfacets(const TexturePoint& at) const {
-        float u = (uroughness ? *uroughness : roughness).eval(at);
-        float v = (vroughness ? *vroughness : roughness).eval(at);
-        if (remaproughness) {
+    const FloatTexture& along_u() const { return uroughness ? *uroughness : roughness; }
+    const FloatTexture& along_v() const { return vroughness ? *vroughness : roughness; }
+    bool varies() const { return !along_u().is_constant() || !along_v().is_constant(); }
+    /// Whether the surface differs from place to place, or in directions along it.
+    bool needs_parameters() const { return varies() || along_u().constant() != along_v().constant(); }
+
+    TrowbridgeReitz facets(const TexturePoint& at, bool is_remapped) const {
+        float u = along_u().eval(at), v = along_v().eval(at);
+        if (is_remapped) {
             u = TrowbridgeReitz::roughness_to_alpha(u);
             v = TrowbridgeReitz::roughness_to_alpha(v);
         }

@@ -1,13 +1,15 @@
 /// What every BSDF must satisfy, whatever it is: directions of unit length, sampling that agrees with
 /// evaluation, reciprocity, and no more light out than in. Loops over the registry and every example, so a
 /// new material is tested by being listed. A chi-square test alone misses faults that scale or drop samples;
-/// the mass test (successful samples = integral of the density) and the reverse densities catch those.
+/// the mass test (successful samples = integral of the density) and the reverse densities catch those. Of
+/// BSDFs that are evaluated by random walks, the means must agree.
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
 #include "math/warp.h"
 #include "tests/support/bsdf_cases.h"
 #include "tests/support/chi_square.h"
+#include "tests/support/statistics.h"
 
 namespace alhazen {
 
@@ -55,7 +57,7 @@ void for_each_case(Test test) {
             for (TransportMode mode : modes) {
                 SCOPED_TRACE(describe(c, wo, mode));
                 test(c, wo, mode);
-                if (testing::Test::HasFailure()) return;
+                if (::testing::Test::HasFailure()) return;
             }
 }
 
@@ -76,9 +78,30 @@ void check_sample(const BsdfCase& c, Vec3 wo, TransportMode mode, const BsdfSamp
     }
     if (is_specular(s)) return;
     Scatter value = c.bsdf->eval(wo, s.wi, mode);
-    ASSERT_TRUE(near(value.f, s.f, 1e-3f)) << value.f[0] << " " << s.f[0];
+    if (!c.bsdf->is_stochastic()) {
+        ASSERT_TRUE(near(value.f, s.f, 1e-3f)) << value.f[0] << " " << s.f[0];
+    }
     ASSERT_TRUE(near(value.pdf, s.pdf, 1e-3f)) << value.pdf << " " << s.pdf;
     ASSERT_TRUE(near(value.pdf_reverse, s.pdf_reverse, 1e-3f));
+}
+
+/// Of a stochastic quantity: mean of its first lane, and the variance of that.
+struct Mean {
+    double value = 0, variance = 0;
+};
+Mean mean_of(const std::vector<double>& samples) {
+    testing::Moments m = testing::moments(samples);
+    return {m.mean, m.variance_of_mean};
+}
+// In standard errors; rounding counts as an error too.
+double difference(Mean a, Mean b) {
+    double rounding = 1e-4 * std::max(std::abs(a.value), std::abs(b.value)) + 1e-7;
+    return std::abs(a.value - b.value) / (std::sqrt(a.variance + b.variance) + rounding);
+}
+Mean mean_f(const BsdfCase& c, Vec3 wo, Vec3 wi) {
+    std::vector<double> samples;
+    for (const Bsdf* bsdf : c.elsewhere) samples.push_back(static_cast<double>(bsdf->eval(wo, wi).f[0]));
+    return mean_of(samples);
 }
 
 TEST(Bsdf, EveryKindHasExamples) {
@@ -92,7 +115,7 @@ TEST(Bsdf, SamplesAgreeWithEvaluation) {
         for (int i = 0; i < 500; ++i) {
             auto s = c.bsdf->sample(wo, rng.uniform(), {rng.uniform(), rng.uniform()}, mode);
             if (s) check_sample(c, wo, mode, *s);
-            if (testing::Test::HasFailure()) return;
+            if (::testing::Test::HasFailure()) return;
         }
     });
 }
@@ -113,7 +136,10 @@ TEST(Bsdf, WhatNeedsNoParametersIsAlikeInAllDirectionsAround) {
                         return Vec3{c1 * w.x - s1 * w.y, s1 * w.x + c1 * w.y, w.z};
                     };
                     Scatter a = c.bsdf->eval(wo, wi), b = c.plain->eval(turned(wo), turned(wi));
-                    EXPECT_TRUE(near(a.f, b.f, 2e-3f)) << a.f[0] << " " << b.f[0];
+                    if (c.bsdf->is_stochastic())
+                        EXPECT_LT(difference(mean_f(c, wo, wi), mean_f(c, turned(wo), turned(wi))), 5);
+                    else
+                        EXPECT_TRUE(near(a.f, b.f, 2e-3f)) << a.f[0] << " " << b.f[0];
                     EXPECT_TRUE(near(a.pdf, b.pdf, 2e-3f)) << a.pdf << " " << b.pdf;
                 }
     }
@@ -221,6 +247,8 @@ TEST(Bsdf, SampledDirectionsFollowTheDensity) {
     auto count = static_cast<int>(cases().size() * view_directions().size() * std::size(modes));
     double level = sidak_level(1e-4, count);
     for_each_case([&](const BsdfCase& c, Vec3 wo, TransportMode mode) {
+        // Whose density is only near: see the test of its mean.
+        if (c.bsdf->is_stochastic()) return;
         // The mode changes transmission only.
         if (mode == TransportMode::importance && !has(c.bsdf->lobes(), Lobes::transmission)) return;
         auto observed = cell_counts(*c.bsdf, wo, mode, samples, rng);
@@ -244,6 +272,56 @@ TEST(Bsdf, SampledDirectionsFollowTheDensity) {
     });
 }
 
+// What samples bring to a cell, in the mean, is the integral of the evaluations over it: the same light,
+// whether a light is found by sampling it or by sampling the BSDF. Reflection only, since that is all there
+// is so far.
+TEST(Bsdf, StochasticSamplesAgreeWithEvaluationsInTheMean) {
+    constexpr int z_cells = 6, phi_cells = 6, cells = z_cells * phi_cells, samples = 400 * cells;
+    int tested = 0;
+    Rng rng(6);
+    for_each_case([&](const BsdfCase& c, Vec3 wo, TransportMode mode) {
+        if (!c.bsdf->is_stochastic() || mode == TransportMode::importance) return;
+        ++tested;
+        std::vector<std::vector<double>> sampled(cells), evaluated(cells);
+        double mass = 0;
+        for (int i = 0; i < samples; ++i) {
+            const Bsdf& bsdf = *c.elsewhere[static_cast<std::size_t>(i) % c.elsewhere.size()];
+            float u = rng.uniform();
+            Vec2 u2{rng.uniform(), rng.uniform()};
+            auto s = bsdf.sample(wo, u, u2, mode);
+            int cell = -1;
+            if (s && !is_specular(*s)) {
+                float phi = std::atan2(s->wi.y, s->wi.x) * (inv_pi / 2);
+                cell = std::min(z_cells - 1, static_cast<int>(std::abs(s->wi.z) * z_cells)) * phi_cells +
+                       std::min(phi_cells - 1, static_cast<int>((phi < 0 ? phi + 1 : phi) * phi_cells));
+            }
+            for (int k = 0; k < cells; ++k)
+                sampled[static_cast<std::size_t>(k)].push_back(
+                    k == cell ? static_cast<double>(s->f[0] / s->pdf) : 0);
+            // One direction of each cell in turn.
+            cell = i % cells;
+            float z = (static_cast<float>(cell / phi_cells) + rng.uniform()) / z_cells;
+            float phi = 2 * pi * (static_cast<float>(cell % phi_cells) + rng.uniform()) / phi_cells;
+            float r = safe_sqrt(1 - z * z);
+            Vec3 wi{r * std::cos(phi), r * std::sin(phi), std::copysign(z, wo.z)};
+            Scatter value = bsdf.eval(wo, wi, mode);
+            evaluated[static_cast<std::size_t>(cell)].push_back(
+                static_cast<double>(value.f[0] * (2 * pi / cells)));
+            mass += static_cast<double>(value.pdf * (2 * pi / samples));
+        }
+        // Narrow lobes are met by chance.
+        EXPECT_LT(mass, 1.2);
+        for (std::size_t k = 0; k < cells; ++k) {
+            Mean a = mean_of(sampled[k]), b = mean_of(evaluated[k]);
+            // Of a few samples (of weights up to about one) the scatter says little.
+            a.variance = std::max(a.variance, b.value / samples);
+            // A chance of 6e-7 for each of some thousand cells.
+            ASSERT_LT(difference(a, b), 5) << "cell " << k << ": " << a.value << " and " << b.value;
+        }
+    });
+    EXPECT_GT(tested, 40);
+}
+
 // f(wo, wi) as radiance is f(wi, wo) as importance, for reflection and refraction alike (Veach 1997, 5.2);
 // the density of the way back is the density of the reversed pair.
 TEST(Bsdf, IsReciprocal) {
@@ -256,8 +334,15 @@ TEST(Bsdf, IsReciprocal) {
             if (std::min(std::abs(wo.z), std::abs(wi.z)) < 0.02f) continue;
             Scatter there = c.bsdf->eval(wo, wi, TransportMode::radiance);
             Scatter back = c.bsdf->eval(wi, wo, TransportMode::importance);
-            ASSERT_TRUE(near(there.f / std::abs(wi.z), back.f / std::abs(wo.z), 5e-3f))
-                << there.f[0] / std::abs(wi.z) << " " << back.f[0] / std::abs(wo.z);
+            if (!c.bsdf->is_stochastic()) {
+                ASSERT_TRUE(near(there.f / std::abs(wi.z), back.f / std::abs(wo.z), 5e-3f))
+                    << there.f[0] / std::abs(wi.z) << " " << back.f[0] / std::abs(wo.z);
+            } else if (i % 20 == 0) {
+                Mean a = mean_f(c, wo, wi), b = mean_f(c, wi, wo);
+                double ratio = static_cast<double>(std::abs(wi.z / wo.z));
+                ASSERT_LT(difference(a, {b.value * ratio, b.variance * ratio * ratio}), 5)
+                    << a.value << " " << b.value;
+            }
             ASSERT_TRUE(near(there.pdf_reverse, back.pdf, 5e-3f)) << there.pdf_reverse << " " << back.pdf;
             ASSERT_TRUE(near(there.pdf, back.pdf_reverse, 5e-3f));
         }

@@ -15,6 +15,7 @@ struct BsdfCase {
     std::string kind, example;
     Bsdf* bsdf = nullptr;
     Bsdf* plain = nullptr; ///< from a hit without uv and tangents, where the material says it needs none
+    std::vector<Bsdf*> elsewhere = {}; ///< of stochastic ones: the same, with other random numbers
 };
 
 /// Owns what the cases point to. Mixtures are seen at several points, so that both parts are among the cases;
@@ -29,6 +30,9 @@ class BsdfCases {
     }
     const std::vector<BsdfCase>& list() const { return cases_; }
     const Messages& messages() const { return messages_; }
+
+    /// How often stochastic ones are there.
+    static constexpr int places = 400;
 
   private:
     static Node node_of(std::string type, std::string name, std::vector<Parameter> parameters) {
@@ -54,13 +58,22 @@ class BsdfCases {
             std::string name = kind + " / " + example.name;
             Bsdf* plain = nullptr;
             if (!material->needs_parameters()) plain = bsdf_at(*material, i, context.color_mode, false);
-            cases_.push_back({name, kind, example.name, bsdf_at(*material, i, context.color_mode), plain});
-            Bsdf* wide = bsdf_at(*material, i, context.color_mode);
-            bool was_specular = has(wide->lobes(), Lobes::specular);
-            wide->regularize();
-            if (was_specular && !has(wide->lobes(), Lobes::specular))
-                cases_.push_back(
-                    {name + ", regularised", kind, example.name + ", regularised", wide, nullptr});
+            BsdfCase c{name, kind, example.name, bsdf_at(*material, i, context.color_mode), plain};
+            add_elsewhere(c, *material, context.color_mode, false);
+            bool was_specular = has(c.bsdf->lobes(), Lobes::specular);
+            cases_.push_back(std::move(c));
+            c = {name + ", regularised", kind, example.name + ", regularised",
+                 bsdf_at(*material, i, context.color_mode)};
+            c.bsdf->regularize();
+            add_elsewhere(c, *material, context.color_mode, true);
+            if (was_specular && !has(c.bsdf->lobes(), Lobes::specular)) cases_.push_back(std::move(c));
+        }
+    }
+
+    void add_elsewhere(BsdfCase& c, const Material& material, ColorMode mode, bool is_regularised) {
+        for (int place = 1; c.bsdf->is_stochastic() && place <= places; ++place) {
+            c.elsewhere.push_back(bsdf_at(material, place, mode));
+            if (is_regularised) c.elsewhere.back()->regularize();
         }
     }
 
