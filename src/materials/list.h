@@ -1,6 +1,7 @@
 // The materials, one line each.
 KIND(phong)
 KIND(diffuse)
+KIND(diffusetransmission)
 KIND(conductor)
 KIND(dielectric)
 KIND(thindielectric)

@@ -8,8 +8,8 @@
 #include "base/transform.h"
 #include "color/wavelengths.h"
 #include "describe/kind.h"
+#include "math/phase.h"
 #include "media/majorant_grid.h"
-#include "media/phase.h"
 
 namespace alhazen {
 

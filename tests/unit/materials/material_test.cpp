@@ -75,6 +75,16 @@ TEST_F(MaterialTest, DiffuseIsLambert) {
     EXPECT_EQ(b->whitted(oblique).ambient[2], 0.6f);
 }
 
+TEST_F(MaterialTest, SheetsReflectAndLetThrough) {
+    Bsdf* b = bsdf("diffusetransmission", {make_float("reflectance", 0.3f), make_float("transmittance", 0.6f),
+                                           make_float("scale", 0.5f)});
+    Vec3 wi = normalize(Vec3(-0.3f, 0.4f, 0.5f));
+    EXPECT_NEAR(b->eval(oblique, wi).f[0], 0.15f * inv_pi * wi.z, 1e-6f);
+    EXPECT_NEAR(b->eval(oblique, -wi).f[0], 0.3f * inv_pi * wi.z, 1e-6f);
+    EXPECT_NEAR(b->eval(oblique, -wi).pdf, 2 / 3.0f * inv_pi * wi.z, 1e-6f);
+    EXPECT_NEAR(bsdf("diffusetransmission", {})->eval(-oblique, wi).f[0], 0.25f * inv_pi * wi.z, 1e-6f);
+}
+
 TEST_F(MaterialTest, CopperIsRedAndBright) {
     // Johnson and Christy 1972: about 0.55 of blue light is reflected, above 0.9 of red.
     Spectrum r = bsdf("conductor", {})->whitted({0, 0, 1}).mirror;

@@ -1,4 +1,4 @@
-#include "media/phase.h"
+#include "math/phase.h"
 
 #include "math/warp.h"
 #include "tests/support/density_test.h"
