@@ -2,9 +2,9 @@
 /// light is sampled (next event estimation) and one direction of the BSDF; where both can find the same
 /// light, the two are weighed by the power heuristic (Veach 1997, section 9.2). Walks that carry little end
 /// by Russian roulette. The picture: everything surfaces do to light, converging as noise.
+#include "integrators/arrival.h"
 #include "integrators/direct_light.h"
 #include "integrators/integrator.h"
-#include "integrators/weights.h"
 #include "materials/material.h"
 
 namespace alhazen {
@@ -30,15 +30,6 @@ struct PathTracer final : Integrator {
     std::string light_sampler() const override {
         return FieldType<LightSampler>::choices()[std::size_t(lightsampler)];
     }
-
-    /// How a path came to where it is: what the light it finds there weighs beside light sampling.
-    struct Arrival {
-        float pdf = 0;        ///< of the BSDF sample that led here
-        bool specular = true; ///< light sampling had no part in finding what this ray finds
-        LightReceiver from;
-
-        float weight(float light_pdf) const { return power_heuristic(pdf, light_pdf, specular); }
-    };
 
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         Spectrum sum = 0, throughput = 1;
@@ -83,27 +74,6 @@ struct PathTracer final : Integrator {
             }
             if (throughput.is_black()) co_return sum;
         }
-    }
-
-    static Spectrum escaped_light(const Ray& ray, const Arrival& arrival, const PathContext& path) {
-        Spectrum sum = 0;
-        for (const Light* light : path.scene.infinite_lights()) {
-            float pdf = 0;
-            if (!arrival.specular)
-                pdf = path.scene.light_probability(arrival.from, light) *
-                      light->pdf_escaped(arrival.from, ray.d);
-            sum += light->escaped(ray.d, path.lambda) * arrival.weight(pdf);
-        }
-        return sum;
-    }
-
-    static Spectrum emitted_light(const Hit& hit, const Ray& ray, const Arrival& arrival,
-                                  const PathContext& path) {
-        Spectrum L = hit.area_light->emitted(hit, path.lambda);
-        if (L.is_black() || arrival.specular) return L;
-        float pdf = path.scene.light_probability(arrival.from, hit.area_light) *
-                    hit.area_light->pdf_hit(arrival.from, hit, ray.d);
-        return L * arrival.weight(pdf);
     }
 };
 
