@@ -19,6 +19,10 @@ class ExactSums {
 
     std::size_t size() const { return low_.size(); }
     void reset();
+    void clear(std::size_t i) {
+        low_[i] = low_zero;
+        high_[i] = 0;
+    }
 
     /// May be called by several threads at a time; v must be finite.
     void add(std::size_t i, double v) {

@@ -49,6 +49,12 @@ struct Film {
     /// Whether a splat there touches a pixel.
     virtual bool splat_reaches(Vec2 /*position*/) const { return false; }
     virtual void set_splat_scale(double /*scale*/) {}
+
+    /// What the sensor measures of a sample: values that add up, for those who make pixels in other ways than
+    /// add().
+    virtual Vec3 measure(Spectrum /*L*/, const Wavelengths&) const { return {}; }
+    /// Makes a pixel show what was measured, instead of what was added before.
+    virtual void set(Vec2i /*pixel*/, Vec3d /*measured*/) {}
     /// What is there so far, as linear RGB: pixels().width() x pixels().height().
     virtual Image image() const = 0;
 };

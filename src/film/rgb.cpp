@@ -92,6 +92,10 @@ class RgbFilm final : public Film {
         return !splats_.empty() && splats_.front().reaches(position);
     }
     void set_splat_scale(double scale) override { splat_scale_ = scale; }
+    Vec3 measure(Spectrum L, const Wavelengths& lambda) const override {
+        return sensor_.to_sensor_rgb(L, lambda);
+    }
+    void set(Vec2i pixel, Vec3d measured) override { sums_[index(pixel)] = {measured, measured, 1, 1}; }
     Image image() const override;
     Image splat_image(std::size_t layer) const override;
 

@@ -90,6 +90,12 @@ Task<bool> Bidirectional::find_paths(Ray camera_ray, PathContext& path, PathTake
     co_return true;
 }
 
+Vec2 Bidirectional::next_on_lens(SampleStream& samples) const {
+    if (camera_.has_lens()) return samples.next2();
+    samples.skip(2);
+    return {};
+}
+
 /// The last of the vertices that can be joined.
 Task<const Bidirectional::Vertex*> Bidirectional::walk_from_light(float time, PathContext& path,
                                                                   PathTaker& taker, Wanted wanted) const {
@@ -118,7 +124,7 @@ Task<const Bidirectional::Vertex*> Bidirectional::walk_from_light(float time, Pa
         if (options_.regularize && walk.rough_before) bsdf->regularize();
         Vertex* vertex = path.arena.make<Vertex>(
             walk, *hit, bsdf, number == 2 ? first_from_light(*start, *hit) : arrive(walk, *hit), number);
-        const Vec2 lens = samples.next2();
+        const Vec2 lens = next_on_lens(samples);
         if (vertex->can_be_joined()) {
             vertex->previous = lit;
             lit = vertex;

@@ -71,6 +71,7 @@ class Bidirectional {
     Task<bool> walk_from_camera(Walk walk, std::optional<Hit> hit, PathContext& path, const Vertex* lit,
                                 PathTaker& taker, Wanted wanted) const;
 
+    Vec2 next_on_lens(SampleStream& samples) const;
     Alternatives first_from_light(const LightStart& start, const Hit& hit) const;
     Alternatives first_from_camera(const Walk& walk, const Hit& hit) const;
     Alternatives arrive(const Walk& walk, const Hit& hit) const;

@@ -22,6 +22,8 @@ struct Integrator {
     /// True for those that bring light to the film themselves, by Film::add_splat: one path from the lights
     /// for each sample of a pixel, or by a whole picture's own count. They need a camera that receives light.
     virtual bool makes_splats() const { return false; }
+    /// True for those that make pixels by Film::set: they need a film that takes splats, too.
+    virtual bool sets_pixels() const { return false; }
     /// Names of pictures that they splat beside the one that is wanted: the film's layers from 1 on.
     virtual std::vector<std::string> splat_layers() const { return {}; }
     /// For integrators that make pictures as a whole: the work on this one. nullptr: the picture is made of

@@ -89,22 +89,23 @@ float exposure_time(const CameraNode& camera) {
 
 // Light that is brought to the camera needs one that can say where on the film it arrives, and a film that
 // takes it.
-void check_splats(const World& world, const Node& integrator, const CameraNode& camera, const Node& film,
-                  BuildContext& context) {
-    if (!world.integrator || !world.integrator->makes_splats()) return;
-    const std::string who =
-        fmt::format("integrator \"{}\" brings light from the lights to the camera", integrator.type);
-    if (world.camera && !world.camera->receives_light())
+void check_light_tracing(const World& world, const Node& integrator, const CameraNode& camera,
+                         const Node& film, BuildContext& context) {
+    if (!world.integrator) return;
+    const bool splats = world.integrator->makes_splats();
+    if (splats && world.camera && !world.camera->receives_light())
         context.messages.add_error(
             camera.node.place,
-            fmt::format("{}, which is not possible with camera \"{}\"; use a \"perspective\" or "
-                        "\"orthographic\" camera, or integrator \"path\"",
-                        who, camera.node.type));
-    if (world.film && !world.film->takes_splats())
+            fmt::format(
+                "integrator \"{}\" joins paths from the lights with the camera, which is not possible with "
+                "camera \"{}\"; use a \"perspective\" or \"orthographic\" camera, or integrator \"path\"",
+                integrator.type, camera.node.type));
+    if ((splats || world.integrator->sets_pixels()) && world.film && !world.film->takes_splats())
         context.messages.add_error(
-            film.place, fmt::format("{}, which is not possible with film \"{}\"; use film \"rgb\", or "
-                                    "integrator \"path\"",
-                                    who, film.type));
+            film.place,
+            fmt::format("integrator \"{}\" brings light to any pixel, which is not possible with film "
+                        "\"{}\"; use film \"rgb\", or integrator \"path\"",
+                        integrator.type, film.type));
 }
 
 std::uint64_t find_seed(const SceneDescription& description, const RenderSettings& settings) {
@@ -200,7 +201,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     world->camera = make_camera(*camera, context);
     world->filter = filter_kinds().make(with_default(description.filter, "gaussian"), context, "gaussian");
     add_sampler(*world, description, settings, context);
-    check_splats(*world, description.integrator, *camera, description.film, context);
+    check_light_tracing(*world, description.integrator, *camera, description.film, context);
 
     Node fallback;
     fallback.type = "diffuse";

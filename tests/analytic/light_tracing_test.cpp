@@ -219,8 +219,92 @@ TEST(Bidirectional, ShowsStrategiesOfShortPathsOnly) {
     EXPECT_NE(messages.warnings()[0].text.find("limits \"maxdepth\" to 5"), std::string::npos);
 }
 
+/// Means of a picture's upper and lower half.
+struct Halves {
+    std::vector<double> upper, lower;
+};
+
+Halves halves_of(const std::string& integrator, int spp, const Setting& setting) {
+    Halves halves;
+    for (int seed = 0; seed < seeds; ++seed) {
+        const Image image =
+            render_text(scene_text(integrator, spp, setting), settings_of(setting, seed)).image;
+        double sums[2] = {0, 0};
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x)
+                for (int c = 0; c < 3; ++c)
+                    sums[2 * y / image.height()] += static_cast<double>(image.rgb(x, y)[c]);
+        halves.upper.push_back(sums[0]);
+        halves.lower.push_back(sums[1]);
+    }
+    return halves;
+}
+
+void expect_same_halves(const Halves& a, const Halves& b, double floor) {
+    EXPECT_LT(std::abs(t_between(a.upper, b.upper, floor)), limit);
+    EXPECT_LT(std::abs(t_between(a.lower, b.lower, floor)), limit);
+}
+
+// Chains keep to where it is bright; the picture must not.
+TEST(Metropolis, IsThePathTracersPicture) {
+    const std::string mlt =
+        R"("mlt" "integer maxdepth" 3 "integer bootstrapsamples" 4000 "integer chains" 30)";
+    const std::string glossy = R"(Material "conductor" "float roughness" .3)" + ball;
+    const std::string sky = R"(LightSource "infinite" "rgb L" [ .1 .1 .2 ])";
+    for (const Setting& setting :
+         {Setting{lamp + floor_and_wall + glossy, perspective, ColorMode::spectral},
+          Setting{sky + lamp + floor_and_wall + ball, R"(Camera "perspective" "float lensradius" .1)"},
+          Setting{lamp + floor_and_wall + ball, perspective, ColorMode::rgb, Rect2i{{2, 1}, {8, 7}}}})
+        expect_same_halves(halves_of(mlt, 100, setting),
+                           halves_of(R"("path" "integer maxdepth" 3)", 64, setting), 1e-4);
+}
+
+TEST(Metropolis, DarkScenesStayDark) {
+    const Setting setting{floor_and_wall};
+    const Image image = render_text(scene_text(R"("mlt" "integer bootstrapsamples" 100)", 2, setting)).image;
+    EXPECT_EQ(mean_of_colors(image), 0);
+}
+
+// Photons are gathered from around: with a small radius the blur is well below the 0.3 % that are granted
+// beside the noise.
+TEST(PhotonMapping, IsThePathTracersPicture) {
+    const std::string sppm =
+        R"("sppm" "integer maxdepth" 12 "integer photonsperiteration" 1500 "float radius" .12)";
+    const std::string mirrors = R"(
+Material "phong" "rgb diffuse" [ .3 .4 .3 ] "float reflectivity" .5
+Shape "bilinearmesh" "point3 P" [ -2 0 -2  2 0 -2  -2 0 1  2 0 1 ]
+Material "conductor" "float roughness" .3
+Shape "bilinearmesh" "point3 P" [ -2 0 1  2 0 1  -2 3 1  2 3 1 ]
+Material "diffuse" "rgb reflectance" [ .7 .6 .5 ])" +
+                                ball;
+    for (const Setting& setting : {Setting{lamp + floor_and_wall + ball, perspective, ColorMode::spectral},
+                                   Setting{R"(LightSource "infinite" "rgb L" [ .2 .2 .3 ])" + lamp + mirrors},
+                                   Setting{lamp + floor_and_wall + ball,
+                                           R"(Camera "orthographic" "float screenwindow" [ -.8 .8 -.8 1.2 ])",
+                                           ColorMode::rgb, Rect2i{{2, 1}, {8, 7}}}})
+        expect_same_halves(halves_of(sppm, 16, setting),
+                           halves_of(R"("path" "integer maxdepth" 12)", 64, setting), 3e-3);
+}
+
+// A point light through a ball of glass that disperses: the floor's caustic, as light tracing has it.
+TEST(PhotonMapping, FindsCaustics) {
+    const Setting setting{R"(LightSource "point" "rgb I" [ 2 2 2 ] "point3 from" [ 0 3 0 ]
+Material "diffuse" "rgb reflectance" [ .7 .7 .7 ]
+Shape "bilinearmesh" "point3 P" [ -2 0 -2  2 0 -2  -2 0 1  2 0 1 ]
+Material "dielectric" "spectrum eta" "glass-SF11"
+Translate 0 1 0
+Shape "sphere" "float radius" .5
+)",
+                          "Identity LookAt 0 .4 -1.2  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 30",
+                          ColorMode::spectral};
+    expect_same_halves(
+        halves_of(R"("sppm" "integer maxdepth" 6 "integer photonsperiteration" 3000 "float radius" .05)", 16,
+                  setting),
+        halves_of(R"("lightpath" "integer maxdepth" 5)", 256, setting), 1e-2);
+}
+
 TEST(LightTracing, SaysWhichCamerasItCannotUse) {
-    for (const char* integrator : {"lightpath", "bdpt"}) {
+    for (const char* integrator : {"lightpath", "bdpt", "mlt"}) {
         try {
             render_text(scene_text(fmt::format("\"{}\"", integrator), 1, {lamp, R"(Camera "spherical")"}));
             FAIL();
