@@ -165,6 +165,31 @@ void add_sampler(World& world, const SceneDescription& description, const Render
     world.spp = samples();
 }
 
+void add_scene(World& world, SceneDescription& description, const CameraNode& camera,
+               const AccelChoice& accel, BuildContext& context) {
+    Node fallback;
+    fallback.type = "diffuse";
+    description.materials.push_back(fallback);
+    world.textures.build(description.textures, context);
+    context.textures = &world.textures;
+    SdfSet sdfs;
+    sdfs.build(description.sdfs, context);
+    world.materials.build(description.materials, context);
+    context.materials = &world.materials;
+    world.media.build(description.media, context);
+    world.scene = build_scene(description, world.materials, world.media, accel, context);
+    world.textures.forget_images();
+    if (!world.scene) return;
+    world.scene->set_medium_at_camera(world.media.find(camera.medium, camera.node.place, context.messages));
+    if (accel.distance_field > 0)
+        approximate(*world.scene, accel.distance_field, description.accelerator.place, context.messages);
+    if (world.scene->has_media() && world.integrator && !world.integrator->sees_media())
+        context.messages.add_warning(
+            description.integrator.place,
+            "this integrator does not see participating media, of which the scene has "
+            "some; volpath does");
+}
+
 } // namespace
 
 std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings,
@@ -203,28 +228,8 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     add_sampler(*world, description, settings, context);
     check_light_tracing(*world, description.integrator, *camera, description.film, context);
 
-    Node fallback;
-    fallback.type = "diffuse";
-    description.materials.push_back(fallback);
-    world->textures.build(description.textures, context);
-    context.textures = &world->textures;
-    SdfSet sdfs;
-    sdfs.build(description.sdfs, context);
-    world->materials.build(description.materials, context);
-    context.materials = &world->materials;
-    world->media.build(description.media, context);
-    AccelChoice accel = choose_accel(description, settings, context);
-    world->scene = build_scene(description, world->materials, world->media, accel, context);
-    if (world->scene)
-        world->scene->set_medium_at_camera(world->media.find(camera->medium, camera->node.place, messages));
-    world->textures.forget_images();
-    if (world->scene && accel.distance_field > 0)
-        approximate(*world->scene, accel.distance_field, description.accelerator.place, messages);
+    add_scene(*world, description, *camera, choose_accel(description, settings, context), context);
     messages.throw_if_errors();
-    if (world->scene->has_media() && !world->integrator->sees_media())
-        messages.add_warning(description.integrator.place,
-                             "this integrator does not see participating media, of which the scene has some; "
-                             "volpath does");
     world->scene->set_light_chooser(world->integrator->light_sampler());
     world->paths_in_flight =
         settings.paths_in_flight > 0 ? settings.paths_in_flight : default_paths_in_flight(*world->scene);
