@@ -79,7 +79,6 @@ ALHAZEN_INLINE bool begin(const WideQuery& query, WideSlot& slot, std::uint32_t 
     static_assert(offsetof(WideRay, d) == 12 && offsetof(WideRay, tmax) == 24);
     // Fourth lanes: the direction's x, and tmax.
     const F4 o = load_four(ray.o), d = load_four(ray.d);
-    // NOLINTNEXTLINE(misc-redundant-expression): of what is not finite the difference is not 0
     const std::uint32_t is_infinite = signs_of(((o - o) != 0) | ((d - d) != 0)) & 7;
     const std::uint32_t is_still = (signs_of(d == 0) & 7) == 7;
     if (is_infinite | is_still | !(ray.tmax > 0)) [[unlikely]]
