@@ -46,4 +46,9 @@ struct Hit {
     }
 };
 
+/// How the unit shading normal changes along u and v: zero where the surface is flat.
+struct NormalChange {
+    Vec3 dndu, dndv;
+};
+
 } // namespace alhazen

@@ -25,6 +25,7 @@ struct CoatedConductor final : Material {
         Roughness::describe(f, &CoatedConductor::metal, "conductor.");
         Roughness::describe_remap(f);
         LayerFields::describe(f, &CoatedConductor::layer);
+        Relief::describe(f);
         f.example("varnished copper", {});
         f.example("brass",
                   {make_spectrum("conductor.eta", "metal-CuZn-eta"),

@@ -93,6 +93,7 @@ struct CoatedDiffuse final : Material {
         Roughness::describe(f, &CoatedDiffuse::rough);
         Roughness::describe_remap(f);
         LayerFields::describe(f, &CoatedDiffuse::layer);
+        Relief::describe(f);
         f.example("plastic", {});
         f.example("white varnish", {make_float("reflectance", 1), make_float("thickness", 0)});
         f.example("satin", {make_rgb("reflectance", 0.7f, 0.2f, 0.1f), make_float("roughness", 0.09f)});

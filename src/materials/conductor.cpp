@@ -19,6 +19,7 @@ struct Conductor final : Material {
         MetalColor::describe(f, &Conductor::color);
         Roughness::describe(f, &Conductor::rough);
         Roughness::describe_remap(f);
+        Relief::describe(f);
         f.example("copper mirror", {});
         f.example("rough gold", {make_spectrum("eta", "metal-Au-eta"), make_spectrum("k", "metal-Au-k"),
                                  make_float("roughness", 0.3f)});

@@ -21,6 +21,7 @@ struct Dielectric final : Material {
         f.field("eta", &Dielectric::eta, "index of refraction inside over outside").above(0);
         Roughness::describe(f, &Dielectric::rough);
         Roughness::describe_remap(f);
+        Relief::describe(f);
         f.example("glass", {});
         f.example("frosted", {make_float("roughness", 0.25f)});
         f.example("flint prism", {make_spectrum("eta", "glass-SF11")});

@@ -12,6 +12,7 @@ struct Diffuse final : Material {
     static void describe(Fields<Diffuse>& f) {
         f.about("Ideal matte surface: reflected light does not depend on the viewing direction.");
         f.field("reflectance", &Diffuse::reflectance, "fraction of light reflected").in(0, 1);
+        Relief::describe(f);
         f.example("grey", {});
         f.example("clay", {make_rgb("reflectance", 0.6f, 0.4f, 0.3f)});
         f.example("white", {make_float("reflectance", 1)});

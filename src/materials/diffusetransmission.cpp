@@ -55,6 +55,7 @@ struct DiffuseTransmission final : Material {
         f.field("transmittance", &DiffuseTransmission::transmittance, "fraction of light let through")
             .in(0, 1);
         f.field("scale", &DiffuseTransmission::scale, "factor of both").at_least(0);
+        Relief::describe(f);
         f.example("paper", {});
         f.example("leaf", {make_rgb("reflectance", 0.1f, 0.3f, 0.05f),
                            make_rgb("transmittance", 0.2f, 0.4f, 0.02f), make_float("scale", 1.2f)});

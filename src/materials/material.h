@@ -5,6 +5,7 @@
 #include "base/hit.h"
 #include "describe/kind.h"
 #include "materials/bsdf.h"
+#include "materials/relief.h"
 #include "textures/texture.h"
 
 namespace alhazen {
@@ -26,6 +27,11 @@ struct Material {
     virtual bool is_uniform() const { return false; }
     /// The material in effect at the hit: itself, or one of those it mixes.
     virtual const Material* choose(const Hit&) const { return this; }
+    /// Whether the relief of some material in effect may turn the shading normal.
+    virtual bool has_relief() const { return !relief.is_flat(); }
+
+    /// Applied by the scene when it makes a hit.
+    Relief relief;
 };
 
 const KindList<Material>& material_kinds();

@@ -69,6 +69,7 @@ struct Mix final : Material {
     bool needs_parameters() const override {
         return !amount.is_constant() || first->needs_parameters() || second->needs_parameters();
     }
+    bool has_relief() const override { return first->has_relief() || second->has_relief(); }
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
         return choose(hit)->at(hit, lambda, arena);
     }

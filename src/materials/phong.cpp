@@ -173,6 +173,7 @@ struct Phong final : Material {
         f.field("reflectivity", &Phong::reflectivity, "kr: strength of the mirrored picture").in(0, 1);
         f.field("transparency", &Phong::transparency, "kt: strength of the refracted picture").in(0, 1);
         f.field("eta", &Phong::eta, "index of refraction inside over outside").above(0);
+        Relief::describe(f);
         f.example("plastic", {});
         f.example("blue", {make_rgb("ambient", 0.1f, 0.1f, 0.2f), make_rgb("diffuse", 0.1f, 0.2f, 0.8f),
                            make_float("shininess", 20), make_float("reflectivity", 0.4f)});

@@ -41,6 +41,7 @@ struct ThinDielectric final : Material {
         f.about("A thin pane of glass: reflects, or lets light through without bending it.");
         f.field("eta", &ThinDielectric::eta, "index of refraction of the pane over that of its surroundings")
             .above(0);
+        Relief::describe(f);
         f.example("window", {});
         f.example("diamond pane", {make_float("eta", 2.42f)});
         f.example("soap", {make_spectrum("eta", "glass-BK7")});

@@ -88,7 +88,8 @@ class TileShading::Shader {
         surface_ = fragment.surface;
         primitive_ = fragment.primitive;
         triangle_mesh_ = surface_->placed().shape->triangles();
-        is_simple_ = triangle_mesh_ && surface_->depth == 0;
+        const Material* material = surface_->placed().material;
+        is_simple_ = triangle_mesh_ && surface_->depth == 0 && !(material && material->has_relief());
         if (is_simple_) triangle_.set(*surface_, primitive_);
     }
 

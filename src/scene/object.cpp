@@ -18,6 +18,28 @@ void transform_hit(const Transform& t, Hit& hit) {
     hit.wo = normalize(t.vector(hit.wo));
 }
 
+// The change of a unit normal n (before the transformation) that t does not leave at unit length.
+Vec3 transform_change(const Transform& t, Vec3 n, Vec3 change) {
+    const Vec3 scaled = t.normal(n), unit = normalize(scaled);
+    const Vec3 d = t.normal(change) / length(scaled);
+    return d - unit * dot(unit, d);
+}
+
+// Turns the hit's normal by the relief of the material that is in effect there.
+void apply_relief(const Shape& shape, const Found& found, const Hit& local, Hit& hit) {
+    hit.material = hit.material->choose(hit);
+    if (!hit.material->has_relief()) return;
+    NormalChange change = shape.normal_change(local);
+    Vec3 n = local.ns;
+    for (std::size_t i = found.depth; i-- > 0;) {
+        const Transform& t = found.instances[i]->world_from_object;
+        change = {transform_change(t, n, change.dndu), transform_change(t, n, change.dndv)};
+        n = normalize(t.normal(n));
+    }
+    if (dot(n, hit.ns) < 0) change = {-change.dndu, -change.dndv};
+    hit.material->relief.apply(hit, change);
+}
+
 } // namespace
 
 Ray ray_into(const PlacedObject& instance, const Ray& ray, float& shift) {
@@ -41,6 +63,7 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
                            alpha.is_constant() && alpha.constant() >= 1,
                            placed.material && placed.material->is_interface(),
                            !placed.material || placed.material->needs_parameters() || !placed.lights.empty(),
+                           placed.material && placed.material->has_relief(),
                            static_cast<std::uint32_t>(primitives_.size())});
         for (std::uint32_t i = 0; i < shapes_[s].shape->primitive_count(); ++i) primitives_.push_back({s, i});
     }
@@ -282,9 +305,11 @@ bool Object::count(Query query, const Ray& ray, WalkCounts& counts) const {
 Hit Object::surface(const Found& found) {
     const Primitive& primitive = found.object->primitives_[found.hit.primitive];
     const PlacedShape& placed = found.object->shapes_[primitive.shape];
-    Hit hit = found.object->leaves_[primitive.shape].needs_parameters
+    const Leaf& leaf = found.object->leaves_[primitive.shape];
+    Hit hit = leaf.needs_parameters || leaf.has_relief
                   ? placed.shape->surface(found.ray, primitive.primitive, found.hit)
                   : placed.shape->plain_surface(found.ray, primitive.primitive, found.hit);
+    const Hit local = leaf.has_relief ? hit : Hit{};
     hit.shape = primitive.shape;
     hit.primitive = primitive.primitive;
     hit.material = placed.material;
@@ -292,6 +317,7 @@ Hit Object::surface(const Found& found) {
     hit.area_light = placed.lights.empty() ? nullptr : placed.lights[primitive.primitive];
     for (std::size_t i = found.depth; i-- > 0;) transform_hit(found.instances[i]->world_from_object, hit);
     if (found.depth > 0) hit.instance = found.instances[found.depth - 1]->number + 1;
+    if (leaf.has_relief) apply_relief(*placed.shape, found, local, hit);
     return hit;
 }
 

@@ -120,6 +120,7 @@ class Object final : public Primitives {
         const TriangleMesh* mesh; ///< when the primitives are triangles
         bool is_solid, is_interface;
         bool needs_parameters; ///< whether anybody looks at a hit's uv or tangents
+        bool has_relief;       ///< whether the material may turn a hit's normal
         std::uint32_t first;   ///< number of its first primitive
 
         PrimitiveKind kind() const {

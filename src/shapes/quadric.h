@@ -86,6 +86,19 @@ struct QuadricShape : Shape {
         return hit;
     }
 
+    // By differences: the steps are small beside the surface, and large beside a float's rounding of normals.
+    NormalChange normal_change(const Hit& hit) const final {
+        const Vec3d p = self().snap(placement.to_object(hit.p));
+        const ObjectTangents tangents = self().tangents(p);
+        auto change = [&](Vec3d tangent) {
+            constexpr double step = 0.01;
+            const Vec3d ahead = self().snap(p + tangent * step), behind = self().snap(p - tangent * step);
+            const Vec3 d = placement.normal(self().outward(ahead)) - placement.normal(self().outward(behind));
+            return d / static_cast<float>(2 * step);
+        };
+        return {change(tangents.dpdu), change(tangents.dpdv)};
+    }
+
     float area(std::uint32_t /*primitive*/) const final { return static_cast<float>(world_area_); }
 
     ShapeSample sample(std::uint32_t /*primitive*/, Vec2 u) const final {

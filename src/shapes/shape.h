@@ -45,6 +45,10 @@ struct Shape {
         return surface(ray, primitive, hit);
     }
 
+    /// How the shading normal changes at a hit that surface() made; asked only where bumps need it. Zero says
+    /// that bumps are low beside the radius of curvature.
+    virtual NormalChange normal_change(const Hit&) const { return {}; }
+
     virtual float area(std::uint32_t primitive) const = 0;
     /// A point uniform over the primitive's area (density 1 / area).
     virtual ShapeSample sample(std::uint32_t primitive, Vec2 u) const = 0;

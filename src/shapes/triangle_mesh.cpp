@@ -161,6 +161,25 @@ void TriangleMesh::set_shading_tangents(Hit& hit, Vec3 tangent) {
     }
 }
 
+// The interpolated normal is linear in uv; of its derivatives, what turns the unit normal counts.
+NormalChange TriangleMesh::normal_change(const Hit& hit) const {
+    if (N.empty()) return {};
+    const int* i = corner_indices(hit.primitive);
+    auto normal = [&](int c) { return Vec3d(N[static_cast<std::size_t>(i[c])]); };
+    const auto corner = corner_uv(hit.primitive);
+    const Vec2d uv_ab = Vec2d(corner[1]) - Vec2d(corner[0]), uv_ac = Vec2d(corner[2]) - Vec2d(corner[0]);
+    const Vec2d from_a = Vec2d(hit.uv) - Vec2d(corner[0]);
+    const double determinant = uv_ab.x * uv_ac.y - uv_ab.y * uv_ac.x;
+    if (!(determinant * determinant > 1e-18 * length_squared(uv_ab) * length_squared(uv_ac))) return {};
+    const Vec3d ab = normal(1) - normal(0), ac = normal(2) - normal(0);
+    const Vec3d dndu = (ab * uv_ac.y - ac * uv_ab.y) * (1 / determinant);
+    const Vec3d dndv = (ac * uv_ab.x - ab * uv_ac.x) * (1 / determinant);
+    const double size = length(normal(0) + dndu * from_a.x + dndv * from_a.y);
+    if (!(size > 0)) return {};
+    auto turning = [&](Vec3d d) { return Vec3((d - Vec3d(hit.ns) * dot(Vec3d(hit.ns), d)) * (1 / size)); };
+    return {turning(dndu), turning(dndv)};
+}
+
 float TriangleMesh::area(std::uint32_t triangle) const {
     auto [a, b, c] = vertices(triangle);
     return static_cast<float>(0.5 * length(cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a))));

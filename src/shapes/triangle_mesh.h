@@ -43,6 +43,7 @@ struct TriangleMesh : Shape {
     }
     Hit surface(const Ray& ray, std::uint32_t triangle, const Intersection& met) const final;
     Hit plain_surface(const Ray& ray, std::uint32_t triangle, const Intersection& met) const final;
+    NormalChange normal_change(const Hit& hit) const final;
     float area(std::uint32_t triangle) const final;
     ShapeSample sample(std::uint32_t triangle, Vec2 u) const final;
     std::optional<ShapeSample> sample_from(std::uint32_t triangle, Vec3 reference, Vec2 u) const final;
