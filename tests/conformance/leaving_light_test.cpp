@@ -68,12 +68,12 @@ void check_directions(const Light& light) {
         return static_cast<double>(light.pdf_leaving(ng, w).direction);
     };
     const testing_support::Box2 box{0, 2 * pi_d, static_cast<double>(std::cos(widest)), 1};
-    EXPECT_GT(chi_square_2d(sample, density, box, 100000, 16, 32), p_threshold);
+    EXPECT_GT(chi_square_2d(sample, density, box, 50000, 16, 24), p_threshold);
 }
 
 void check_power(const Light& light) {
     Rng rng(4);
-    constexpr int n = 200000;
+    constexpr int n = 50000;
     double sum = 0, squares = 0;
     for (int i = 0; i < n; ++i) {
         auto s = light.sample_leaving(random_pair(rng), random_pair(rng), white, 0);
@@ -105,7 +105,7 @@ struct Measured {
 
 Measured leaving_flux(const Light& light, const Disk& disk, const Shape* shape) {
     Rng rng(5);
-    constexpr int n = 200000;
+    constexpr int n = 50000;
     double sum = 0, squares = 0;
     for (int i = 0; i < n; ++i) {
         auto s = light.sample_leaving(random_pair(rng), random_pair(rng), white, 0);
@@ -123,7 +123,7 @@ Measured leaving_flux(const Light& light, const Disk& disk, const Shape* shape) 
 
 Measured arriving_flux(const Light& light, const Disk& disk, const Shape* shape) {
     Rng rng(6);
-    constexpr int n = 20000;
+    constexpr int n = 10000;
     const Frame frame = Frame::from_z(disk.normal);
     double sum = 0, squares = 0;
     for (int i = 0; i < n; ++i) {
