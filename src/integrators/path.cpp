@@ -92,7 +92,7 @@ struct PathTracer final : Integrator {
             if (!arrival.specular)
                 pdf = path.scene.light_probability(arrival.from, light) *
                       light->pdf_escaped(arrival.from, ray.d);
-            sum += light->escaped(ray.d, path.lambda) * arrival.weight(pdf);
+            sum += light->escaped(ray.o, ray.d, path.lambda) * arrival.weight(pdf);
         }
         return sum;
     }

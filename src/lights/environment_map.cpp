@@ -1,9 +1,37 @@
 #include "lights/environment_map.h"
 
+#include <memory>
+
 #include "color/tone.h"
+#include "image/pyramid.h"
 #include "math/equal_area.h"
 
 namespace alhazen {
+
+namespace {
+
+Vec2 equirectangular(Vec3 w) {
+    float phi = std::atan2(w.y, w.x) * (inv_pi / 2);
+    float theta = std::atan2(std::sqrt(w.x * w.x + w.y * w.y), w.z);
+    return {phi < 0 ? phi + 1 : phi, theta * inv_pi};
+}
+
+} // namespace
+
+std::function<Vec3(Vec3)> blended_sky(const Image& image) {
+    if (image.width() == image.height()) {
+        auto texels =
+            std::make_shared<const Pyramid<Vec3>>(rgb_pyramid(image, WrapMode::octahedral_sphere, false));
+        return [texels](Vec3 w) { return texels->bilinear(0, sphere_to_equal_area(w)); };
+    }
+    auto texels = std::make_shared<const Pyramid<Vec3>>(rgb_pyramid(image, WrapMode::repeat, false));
+    // Columns go round; rows end at the poles.
+    const float margin = 0.5f / static_cast<float>(image.height());
+    return [texels, margin](Vec3 w) {
+        Vec2 uv = equirectangular(w);
+        return texels->bilinear(0, {uv.x, std::clamp(uv.y, margin, 1 - margin)});
+    };
+}
 
 EnvironmentMap::EnvironmentMap(const Image& image, ColorMode mode)
     : texels_(image, mode), distribution_(make_distribution(image)) {
@@ -65,10 +93,7 @@ Vec3 EnvironmentMap::direction(Vec2 uv) const {
 }
 
 Vec2i EnvironmentMap::texel_of(Vec3 w) const {
-    if (is_octahedral()) return texels_.nearest(sphere_to_equal_area(w));
-    float phi = std::atan2(w.y, w.x) * (inv_pi / 2);
-    float theta = std::atan2(std::sqrt(w.x * w.x + w.y * w.y), w.z);
-    return texels_.nearest({phi < 0 ? phi + 1 : phi, theta * inv_pi});
+    return texels_.nearest(is_octahedral() ? sphere_to_equal_area(w) : equirectangular(w));
 }
 
 EnvironmentMap::Sample EnvironmentMap::sample(Vec2 u) const {

@@ -4,6 +4,8 @@
 /// hardly varies.
 #pragma once
 
+#include <functional>
+
 #include "lights/emission_image.h"
 #include "math/distribution.h"
 
@@ -49,5 +51,9 @@ class EnvironmentMap {
     Vec3 mean_rgb_;
     float illuminance_ = 0;
 };
+
+/// The colours of the image (linear sRGB) as a function of the direction, blended between its pixels. The
+/// size must be valid for an EnvironmentMap.
+std::function<Vec3(Vec3)> blended_sky(const Image& image);
 
 } // namespace alhazen

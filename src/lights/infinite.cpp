@@ -1,10 +1,15 @@
 /// Light from all around, as a sky gives it: the same from everywhere, or a picture (Pharr et al. 2023,
-/// section 12.5).
+/// section 12.5), or a picture seen through a window.
+#include <functional>
+#include <memory>
+
 #include <fmt/format.h>
 
+#include "color/tone.h"
 #include "lights/environment_map.h"
 #include "lights/light.h"
 #include "lights/light_parts.h"
+#include "lights/portal_map.h"
 #include "math/warp.h"
 
 namespace alhazen {
@@ -15,6 +20,7 @@ struct InfiniteLight final : Light {
     float scale = 1;
     std::optional<float> illuminance;
     std::string filename;
+    std::vector<Vec3> portal;
 
     static void describe(Fields<InfiniteLight>& f) {
         f.about("Surrounds the scene. An image is either square (an equal-area octahedral map, as pbrt-v4 "
@@ -24,21 +30,39 @@ struct InfiniteLight final : Light {
         f.field("scale", &InfiniteLight::scale, "factor on the radiance").at_least(0);
         f.field("illuminance", &InfiniteLight::illuminance,
                 "illuminance on a surface that faces up; when positive, the radiance is scaled so that scale "
-                "1 gives it")
+                "1 gives it (with an image or a portal twice as much, as in pbrt-v4)")
             .unit("lx");
         f.field("filename", &InfiniteLight::filename, "image of the surroundings, instead of L");
+        f.field(
+             "portal", &InfiniteLight::portal,
+             "four corners of a rectangle in world space, in order round its edge, through which all of the "
+             "light comes; (corner 3 - corner 0) x (corner 1 - corner 0) points outwards")
+            .unit("scene units");
         f.example("grey sky", {make_rgb("L", .5f, .5f, .6f)});
         f.example("measured", {make_float("illuminance", 10), make_float("scale", .5f)});
+        f.example("picture", {make_string("filename", "sky.exr"), make_float("scale", 2)});
+        f.example("window", {make_string("filename", "sky.exr"),
+                             make_array<Vec3>("portal", ValueType::point3,
+                                              {{-2, -1, 5}, {-2, 3, 5}, {1, 3, 5}, {1, -1, 5}})});
+        f.example("grey window", {make_rgb("L", .5f, .5f, .6f),
+                                  make_array<Vec3>("portal", ValueType::point3,
+                                                   {{-2, -1, 5}, {-2, 3, 5}, {1, 3, 5}, {1, -1, 5}})});
     }
     void finish(const Node& node, BuildContext& context) {
         world_from_light_ = context.world_from_node;
         determinant_ = static_cast<float>(std::abs(1 / world_from_light_.matrix().determinant3()));
-        if (filename.empty()) {
-            // A uniform sky of luminance 1 gives a horizontal surface pi.
-            float s = scale * (is_given(illuminance) ? *illuminance / pi : 1.0f);
-            color_ = calibrated(L.value, s, context.color_mode);
+        if (!check(node, context)) return;
+        if (!filename.empty()) {
+            load_image(node, context);
+        } else if (!portal.empty()) {
+            // As pbrt-v4, whose portals know pictures only: what is not rgb is not scaled to luminance 1.
+            const Vec3 rgb = L.value.linear_srgb();
+            constexpr int resolution = 64; // enough for samples that are uniform over the solid angle
+            set_portal(
+                resolution, [rgb](Vec3) { return rgb; }, 2 * pi * luminance(rgb), context);
         } else {
-            load_map(node, context);
+            // A uniform sky of luminance 1 gives a horizontal surface pi.
+            color_ = calibrated(L.value, scale_for(pi), context.color_mode);
         }
     }
 
@@ -46,9 +70,15 @@ struct InfiniteLight final : Light {
     std::optional<LightSample> sample(const LightReceiver& at, Vec2 u,
                                       const Wavelengths& lambda) const override {
         LightSample s;
-        if (map_) {
+        if (portal_) {
+            auto drawn = portal_->sample(at.p, u);
+            if (!drawn) return std::nullopt;
+            s.L = portal_->eval(drawn->texel, lambda) * image_scale_;
+            s.wi = drawn->w;
+            s.pdf = drawn->pdf;
+        } else if (map_) {
             auto drawn = map_->sample(u);
-            s.L = map_->eval(drawn.texel, lambda) * map_scale_;
+            s.L = map_->eval(drawn.texel, lambda) * image_scale_;
             s.wi = normalize(world_from_light_.vector(drawn.w));
             s.pdf = drawn.pdf * stretch(s.wi);
         } else {
@@ -61,26 +91,49 @@ struct InfiniteLight final : Light {
         return s;
     }
     bool is_infinite() const override { return true; }
-    Spectrum escaped(Vec3 d, const Wavelengths& lambda) const override {
-        if (!map_) return color_.eval(lambda);
-        return map_->eval(map_->texel_of(to_light(d)), lambda) * map_scale_;
+    Spectrum escaped(Vec3 p, Vec3 d, const Wavelengths& lambda) const override {
+        if (portal_) {
+            auto texel = portal_->texel_seen(p, d);
+            return texel ? portal_->eval(*texel, lambda) * image_scale_ : Spectrum(0);
+        }
+        if (map_) return map_->eval(map_->texel_of(to_light(d)), lambda) * image_scale_;
+        return color_.eval(lambda);
     }
-    float pdf_escaped(const LightReceiver&, Vec3 d) const override {
+    float pdf_escaped(const LightReceiver& at, Vec3 d) const override {
+        if (portal_) return portal_->pdf(at.p, d);
         return map_ ? map_->pdf(to_light(d)) * stretch(d) : sphere_pdf();
     }
     Spectrum power(const Wavelengths& lambda) const override {
-        return color_.eval(lambda) * (4 * pi * extent_.disk_area());
+        return color_.eval(lambda) * (portal_ ? 1.0f : 4 * pi * extent_.disk_area());
     }
 
   private:
-    void load_map(const Node& node, BuildContext& context) {
-        constexpr std::string_view owner = "light \"infinite\"";
-        if (node.find("L")) {
+    bool check(const Node& node, BuildContext& context) const {
+        const std::size_t errors = context.messages.error_count();
+        if (node.find("L") && !filename.empty())
             context.messages.add_error(
                 node.find("L")->place,
                 "light \"infinite\" has both \"L\" and \"filename\"; it takes one of them");
-            return;
-        }
+        if (node.find("portal") && portal.size() != 4)
+            context.messages.add_error(
+                node.find("portal")->place,
+                fmt::format(
+                    "parameter \"portal\" has {} points; it must have four, the corners of a rectangle",
+                    portal.size()));
+        else if (!portal.empty() && !is_rectangle(corners()))
+            context.messages.add_error(node.find("portal")->place,
+                                       "parameter \"portal\" must give the corners of a rectangle, in order "
+                                       "round its edge; these points do not");
+        return context.messages.error_count() == errors;
+    }
+    /// scale, or, where an illuminance is asked for, what gives it when scale 1 gives a surface that faces up
+    /// that_of_1.
+    float scale_for(float that_of_1) const {
+        if (!is_given(illuminance)) return scale;
+        return that_of_1 > 0 ? scale * *illuminance / that_of_1 : 0;
+    }
+    void load_image(const Node& node, BuildContext& context) {
+        constexpr std::string_view owner = "light \"infinite\"";
         auto image = load_emission_image(node, filename, owner, context);
         if (!image) return;
         if (!EnvironmentMap::is_valid_size(image->size())) {
@@ -91,14 +144,31 @@ struct InfiniteLight final : Light {
                                                    filename, owner, image->width(), image->height()));
             return;
         }
-        map_ = std::make_shared<const EnvironmentMap>(*image, context.color_mode);
-        float s = scale;
-        if (is_given(illuminance)) s *= map_->illuminance() > 0 ? *illuminance / map_->illuminance() : 0.0f;
-        map_scale_ = s * map_->light_scale();
+        auto map = std::make_shared<const EnvironmentMap>(*image, context.color_mode);
+        // pbrt-v4 takes each pixel of the upper half for half of its solid angle.
+        const float counted_illuminance = map->illuminance() / 2;
+        if (!portal.empty()) {
+            auto sky = blended_sky(*image);
+            set_portal(
+                image->height(), [&](Vec3 w) { return sky(to_light(w)); }, counted_illuminance, context);
+            return;
+        }
+        map_ = std::move(map);
+        const float s = scale_for(counted_illuminance);
+        image_scale_ = s * map_->light_scale();
         // For power(), the mean colour stands for the mean of all the texels' spectra.
         color_ =
             calibrated(SpectrumValue::illuminant_rgb(srgb_space(), map_->mean_rgb()), s, context.color_mode);
     }
+    void set_portal(int resolution, const std::function<Vec3(Vec3)>& sky, float illuminance_of_1,
+                    BuildContext& context) {
+        portal_ = std::make_shared<const PortalMap>(corners(), resolution, sky, context.color_mode);
+        const float s = scale_for(illuminance_of_1);
+        image_scale_ = s * portal_->light_scale();
+        color_ =
+            calibrated(SpectrumValue::illuminant_rgb(srgb_space(), portal_->flux()), s, context.color_mode);
+    }
+    PortalCorners corners() const { return {portal[0], portal[1], portal[2], portal[3]}; }
     Vec3 to_light(Vec3 d) const { return normalize(world_from_light_.inverse_vector(d)); }
     /// Solid angle in the light's space over that in the world around d; 1 unless the transformation
     /// stretches.
@@ -107,9 +177,10 @@ struct InfiniteLight final : Light {
         return determinant_ / (l2 * std::sqrt(l2));
     }
 
-    SpectrumValue color_; ///< radiance; of a map, its mean
+    SpectrumValue color_; ///< radiance; of a map, its mean; of a portal, what it lets through
     std::shared_ptr<const EnvironmentMap> map_;
-    float map_scale_ = 1;
+    std::shared_ptr<const PortalMap> portal_;
+    float image_scale_ = 1;
     Transform world_from_light_;
     float determinant_ = 1; ///< of the transformation from world to light, without sign
     SceneExtent extent_;

@@ -59,8 +59,9 @@ struct Light {
     /// Area lights: density per steradian with which sample() would choose the hit, met along wi from the
     /// receiver.
     virtual float pdf_hit(const LightReceiver&, const Hit& /*hit*/, Vec3 /*wi*/) const { return 0; }
-    /// Infinite lights: radiance arriving against direction d (unit) and the density of sample() choosing it.
-    virtual Spectrum escaped(Vec3 /*d*/, const Wavelengths& /*lambda*/) const { return 0; }
+    /// Infinite lights: radiance arriving at p against direction d (unit) and the density of sample()
+    /// choosing it.
+    virtual Spectrum escaped(Vec3 /*p*/, Vec3 /*d*/, const Wavelengths& /*lambda*/) const { return 0; }
     virtual float pdf_escaped(const LightReceiver&, Vec3 /*d*/) const { return 0; }
 
     /// nullopt for infinite lights.
