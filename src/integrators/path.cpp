@@ -61,7 +61,7 @@ struct PathTracer final : Integrator {
 
             Frame frame = hit->shading_frame();
             if (has(bsdf->lobes(), Lobes::diffuse | Lobes::glossy)) {
-                if (std::optional<DirectLight> direct = propose_light(*hit, *bsdf, frame, path)) {
+                if (auto direct = propose_light(*hit, *bsdf, frame, path, LightSampling::beside_bsdf)) {
                     bool visible = co_await path.visible(direct->shadow_ray);
                     if (visible) sum += throughput * direct->value * direct->mis_weight();
                 }
@@ -91,7 +91,7 @@ struct PathTracer final : Integrator {
             float pdf = 0;
             if (!arrival.specular)
                 pdf = path.scene.light_probability(arrival.from, light) *
-                      light->pdf_escaped(arrival.from, ray.d);
+                      light->pdf_escaped_beside_bsdf(arrival.from, ray.d);
             sum += light->escaped(ray.o, ray.d, path.lambda) * arrival.weight(pdf);
         }
         return sum;

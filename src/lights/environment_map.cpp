@@ -33,13 +33,16 @@ std::function<Vec3(Vec3)> blended_sky(const Image& image) {
     };
 }
 
-EnvironmentMap::EnvironmentMap(const Image& image, ColorMode mode)
-    : texels_(image, mode), distribution_(make_distribution(image)) {
+EnvironmentMap::EnvironmentMap(const Image& image, ColorMode mode) : texels_(image, mode) {
     integrate(image);
+    all_ = make_distribution(image, Draw::all);
+    bright_ = make_distribution(image, Draw::bright);
 }
 
-// Each texel's weight is the light that arrives from it: mean of its channels times its solid angle.
-PiecewiseConstant2D EnvironmentMap::make_distribution(const Image& image) const {
+// Each texel's weight is the light that arrives from it, or what is too much of it: mean of its channels
+// times its solid angle.
+PiecewiseConstant2D EnvironmentMap::make_distribution(const Image& image, Draw draw) const {
+    const float enough = draw == Draw::all ? 0 : (mean_rgb_.x + mean_rgb_.y + mean_rgb_.z) / 3;
     Vec2i size = texels_.size();
     std::vector<float> weights;
     weights.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
@@ -47,7 +50,7 @@ PiecewiseConstant2D EnvironmentMap::make_distribution(const Image& image) const 
         float omega = solid_angle(y);
         for (int x = 0; x < size.x; ++x) {
             Vec3 rgb = emitted_rgb(image, x, y);
-            weights.push_back((rgb.x + rgb.y + rgb.z) / 3 * omega);
+            weights.push_back(std::max(0.0f, (rgb.x + rgb.y + rgb.z) / 3 - enough) * omega);
         }
     }
     return PiecewiseConstant2D(weights, size.x, size.y);
@@ -96,14 +99,14 @@ Vec2i EnvironmentMap::texel_of(Vec3 w) const {
     return texels_.nearest(is_octahedral() ? sphere_to_equal_area(w) : equirectangular(w));
 }
 
-EnvironmentMap::Sample EnvironmentMap::sample(Vec2 u) const {
-    auto s = distribution_.sample(u);
-    return {direction(s.p), pdf(s.cell), s.cell};
+EnvironmentMap::Sample EnvironmentMap::sample(Vec2 u, Draw draw) const {
+    auto s = distribution(draw).sample(u);
+    return {direction(s.p), pdf(s.cell, draw), s.cell};
 }
 
-float EnvironmentMap::pdf(Vec2i texel) const {
+float EnvironmentMap::pdf(Vec2i texel, Draw draw) const {
     auto width = static_cast<float>(texels_.size().x), height = static_cast<float>(texels_.size().y);
-    float per_square = distribution_.pdf(
+    float per_square = distribution(draw).pdf(
         {(static_cast<float>(texel.x) + 0.5f) / width, (static_cast<float>(texel.y) + 0.5f) / height});
     return per_square / (width * height * solid_angle(texel.y));
 }

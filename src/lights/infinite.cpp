@@ -69,6 +69,16 @@ struct InfiniteLight final : Light {
     void prepare(const Bounds3& scene) override { extent_.set(scene); }
     std::optional<LightSample> sample(const LightReceiver& at, Vec2 u,
                                       const Wavelengths& lambda) const override {
+        return sample(at, u, lambda, EnvironmentMap::Draw::all);
+    }
+    std::optional<LightSample> sample_beside_bsdf(const LightReceiver& at, Vec2 u,
+                                                  const Wavelengths& lambda) const override {
+        // BSDFs find a uniform sky better than anybody.
+        if (!map_ && !portal_) return std::nullopt;
+        return sample(at, u, lambda, EnvironmentMap::Draw::bright);
+    }
+    std::optional<LightSample> sample(const LightReceiver& at, Vec2 u, const Wavelengths& lambda,
+                                      EnvironmentMap::Draw draw) const {
         LightSample s;
         if (portal_) {
             auto drawn = portal_->sample(at.p, u);
@@ -77,7 +87,7 @@ struct InfiniteLight final : Light {
             s.wi = drawn->w;
             s.pdf = drawn->pdf;
         } else if (map_) {
-            auto drawn = map_->sample(u);
+            auto drawn = map_->sample(u, draw);
             s.L = map_->eval(drawn.texel, lambda) * image_scale_;
             s.wi = normalize(world_from_light_.vector(drawn.w));
             s.pdf = drawn.pdf * stretch(s.wi);
@@ -101,7 +111,11 @@ struct InfiniteLight final : Light {
     }
     float pdf_escaped(const LightReceiver& at, Vec3 d) const override {
         if (portal_) return portal_->pdf(at.p, d);
-        return map_ ? map_->pdf(to_light(d)) * stretch(d) : sphere_pdf();
+        return map_ ? map_->pdf(to_light(d), EnvironmentMap::Draw::all) * stretch(d) : sphere_pdf();
+    }
+    float pdf_escaped_beside_bsdf(const LightReceiver& at, Vec3 d) const override {
+        if (portal_) return portal_->pdf(at.p, d);
+        return map_ ? map_->pdf(to_light(d), EnvironmentMap::Draw::bright) * stretch(d) : 0;
     }
     Spectrum power(const Wavelengths& lambda) const override {
         return color_.eval(lambda) * (portal_ ? 1.0f : 4 * pi * extent_.disk_area());

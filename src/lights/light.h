@@ -64,6 +64,16 @@ struct Light {
     virtual Spectrum escaped(Vec3 /*p*/, Vec3 /*d*/, const Wavelengths& /*lambda*/) const { return 0; }
     virtual float pdf_escaped(const LightReceiver&, Vec3 /*d*/) const { return 0; }
 
+    /// The same two for integrators that also draw directions from BSDFs and weigh both by their densities:
+    /// light that is found well enough so may be left out here (Karlik et al. 2019, "MIS compensation").
+    virtual std::optional<LightSample> sample_beside_bsdf(const LightReceiver& at, Vec2 u,
+                                                          const Wavelengths& lambda) const {
+        return sample(at, u, lambda);
+    }
+    virtual float pdf_escaped_beside_bsdf(const LightReceiver& at, Vec3 d) const {
+        return pdf_escaped(at, d);
+    }
+
     /// nullopt for infinite lights.
     virtual std::optional<LightBounds> bounds() const { return std::nullopt; }
     /// Flux at the wavelengths, watts; infinite lights: through the scene's bounding disk (after prepare()).

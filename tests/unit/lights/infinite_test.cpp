@@ -151,6 +151,50 @@ TEST_F(InfiniteLightTest, DensityIsThatOfTheSamplesEvenWhenStretched) {
         }
 }
 
+// Irradiance by directions from the cosine and from the light, weighed by the balance heuristic.
+Vec3 irradiance_with_cosine_sampling(const Light& light, const LightReceiver& at) {
+    Rng rng(3);
+    Vec3d sum;
+    const Frame frame = Frame::from_z(at.ns);
+    constexpr int n = 400000;
+    auto add = [&](Vec3 d, Spectrum L, float light_pdf) {
+        float cosine = std::max(0.0f, dot(d, at.ns));
+        if (cosine > 0) sum += Vec3d(Vec3(L[0], L[1], L[2]) * (cosine / (light_pdf + cosine * inv_pi) / n));
+    };
+    for (int i = 0; i < n; ++i) {
+        Vec3 d = frame.to_world(sample_cosine_hemisphere({rng.uniform(), rng.uniform()}));
+        add(d, light.escaped(at.p, d, Wavelengths::rgb()), light.pdf_escaped_beside_bsdf(at, d));
+        auto s = light.sample_beside_bsdf(at, {rng.uniform(), rng.uniform()}, Wavelengths::rgb());
+        if (s) add(s->wi, s->L, s->pdf);
+    }
+    return Vec3(sum);
+}
+
+TEST_F(InfiniteLightTest, BesideBsdfsOnlyWhatIsBrightIsDrawnAndNothingIsLost) {
+    LightReceiver at{{0, 0, 0}, normalize(Vec3(0.3f, -1, 0.5f))};
+    for (Vec2i size : {Vec2i{16, 16}, Vec2i{32, 16}}) {
+        Image image = varied_image(size.x, size.y);
+        image.set_rgb(size.x / 3, size.y / 4, {10, 9, 8});
+        auto light = light_of(image, ColorMode::rgb, {}, Matrix4::rotate(20, {1, 1, 0}));
+        Rng rng(6);
+        int misplaced = 0;
+        for (int i = 0; i < 5000; ++i) {
+            auto s = light->sample_beside_bsdf(at, {rng.uniform(), rng.uniform()}, Wavelengths::rgb());
+            ASSERT_TRUE(s);
+            ASSERT_GT(s->L[0] + s->L[1] + s->L[2], 3 * 0.4f); // the mean is about 0.8 * 0.5
+            misplaced += std::abs(light->pdf_escaped_beside_bsdf(at, s->wi) - s->pdf) > 1e-3f * s->pdf;
+        }
+        EXPECT_LE(misplaced, 10); // on the edges of texels
+        expect_color(irradiance_with_cosine_sampling(*light, at), integrated_irradiance(*light, at.ns),
+                     0.01f);
+    }
+    // All of a uniform sky is left to BSDFs.
+    auto sky = make_light("infinite", {make_rgb("L", 1, 2, 3)});
+    sky->prepare(unit_scene);
+    EXPECT_FALSE(sky->sample_beside_bsdf(at, {0.5f, 0.5f}, Wavelengths::rgb()));
+    expect_color(irradiance_with_cosine_sampling(*sky, at), Vec3(1, 2, 3) * pi, 0.01f);
+}
+
 TEST_F(InfiniteLightTest, PowerOfAnImageIsThatOfItsMean) {
     Image image = varied_image(32, 16);
     for (ColorMode mode : both_modes) {
