@@ -294,7 +294,8 @@ TEST(Shapes, TangentsAreTheDerivativesByTheParameters) {
             for (const Hit& hit : all_hits(*c.shape, random_line(c.ball, rng))) {
                 ASSERT_GT(length(cross(hit.dpdu, hit.dpdv)), 0);
                 // With vertex normals they are tangents of the shading surface.
-                if (c.node.find("N")) {
+                const TriangleMesh* mesh = c.shape->triangles();
+                if (c.node.find("N") || (mesh && !mesh->N.empty())) {
                     ASSERT_NEAR(dot(normalize(hit.dpdu), hit.ns), 0, 1e-5);
                     continue;
                 }
@@ -481,6 +482,7 @@ TEST(Shapes, SampledSolidAngleIsWhatUniformDirectionsMeasure) {
                 hits += n;
                 hit_squares += n * n;
             }
+            if (hits < 5) continue; // too small from there to tell
             double expected = cone * hits / samples;
             double p = hits / samples;
             double spread = cone * cone * (hit_squares / samples - p * p) / samples;
