@@ -21,8 +21,9 @@ inline Spectrum escaped_light(const Ray& ray, const Arrival& arrival, const Path
     for (const Light* light : path.scene.infinite_lights()) {
         float pdf = 0;
         if (!arrival.specular)
-            pdf = path.scene.light_probability(arrival.from, light) * light->pdf_escaped(arrival.from, ray.d);
-        sum += light->escaped(ray.d, path.lambda) * arrival.weight(pdf);
+            pdf = path.scene.light_probability(arrival.from, light) *
+                  light->pdf_escaped_beside_bsdf(arrival.from, ray.d);
+        sum += light->escaped(ray.o, ray.d, path.lambda) * arrival.weight(pdf);
     }
     return sum;
 }

@@ -9,14 +9,17 @@ float DirectLight::mis_weight() const {
 }
 
 std::optional<DirectLight> propose_light(const Hit& hit, const Bsdf& bsdf, const Frame& frame,
-                                         PathContext& path) {
+                                         PathContext& path, LightSampling sampling) {
     LightReceiver at{hit.p, hit.ns};
     std::optional<ChosenLight> chosen = path.scene.choose_light(at, path.samples.next1());
     if (!chosen) {
         path.samples.skip(2);
         return std::nullopt;
     }
-    std::optional<LightSample> light = chosen->light->sample(at, path.pair_for(*chosen->light), path.lambda);
+    const Vec2 u = path.pair_for(*chosen->light);
+    std::optional<LightSample> light = sampling == LightSampling::alone
+                                           ? chosen->light->sample(at, u, path.lambda)
+                                           : chosen->light->sample_beside_bsdf(at, u, path.lambda);
     if (!light || !(light->pdf > 0) || light->L.is_black()) return std::nullopt;
     Scatter scatter = bsdf.eval(frame.to_local(hit.wo), frame.to_local(light->wi));
     if (scatter.f.is_black()) return std::nullopt;

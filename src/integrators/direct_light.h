@@ -21,8 +21,12 @@ struct DirectLight {
     float mis_weight() const;
 };
 
+/// Whether the integrator finds lights by light sampling alone, or also by directions drawn from BSDFs, both
+/// weighed by their densities (then pdf_escaped_beside_bsdf() is that of lights that escaping rays find).
+enum class LightSampling { alone, beside_bsdf };
+
 /// Takes three random numbers of the path, whatever comes of them; nullopt when no light would arrive.
 std::optional<DirectLight> propose_light(const Hit& hit, const Bsdf& bsdf, const Frame& frame,
-                                         PathContext& path);
+                                         PathContext& path, LightSampling sampling = LightSampling::alone);
 
 } // namespace alhazen

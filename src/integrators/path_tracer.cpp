@@ -27,7 +27,8 @@ Task<Spectrum> trace_path(PathRules rules, Ray ray, PathContext& path) {
 
         Frame frame = hit->shading_frame();
         if (has(bsdf->lobes(), Lobes::diffuse | Lobes::glossy)) {
-            if (std::optional<DirectLight> direct = propose_light(*hit, *bsdf, frame, path)) {
+            if (std::optional<DirectLight> direct =
+                    propose_light(*hit, *bsdf, frame, path, LightSampling::beside_bsdf)) {
                 bool visible = co_await path.visible(direct->shadow_ray);
                 if (visible) sum += throughput * direct->value * direct->mis_weight();
             }

@@ -25,7 +25,7 @@ struct RandomWalk final : Integrator {
             std::optional<Hit> hit = co_await path.closest(ray);
             if (!hit) {
                 for (const Light* light : path.scene.infinite_lights())
-                    sum += throughput * light->escaped(ray.d, path.lambda);
+                    sum += throughput * light->escaped(ray.o, ray.d, path.lambda);
                 break;
             }
             if (hit->area_light) sum += throughput * hit->area_light->emitted(*hit, path.lambda);

@@ -120,7 +120,7 @@ struct Raster final : Integrator {
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         for (;;) {
             std::optional<Hit> hit = co_await path.closest(ray);
-            if (!hit) co_return lights_->background(ray.d);
+            if (!hit) co_return lights_->background(ray.o, ray.d);
             if (const Bsdf* bsdf = hit->material->at(*hit, path.lambda, path.arena))
                 co_return shading_->radiance(*hit, *bsdf);
             ray = hit->spawn(ray.d);

@@ -34,7 +34,7 @@ struct SimplePath final : Integrator {
             if (!hit) {
                 if (count_emission)
                     for (const Light* light : path.scene.infinite_lights())
-                        sum += throughput * light->escaped(ray.d, path.lambda);
+                        sum += throughput * light->escaped(ray.o, ray.d, path.lambda);
                 break;
             }
             if (hit->area_light && count_emission)

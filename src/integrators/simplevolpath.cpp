@@ -44,7 +44,7 @@ struct SimpleVolPath final : Integrator {
             }
             if (!hit) {
                 for (const Light* light : path.scene.infinite_lights())
-                    sum += weights.alone(light->escaped(ray.d, path.lambda));
+                    sum += weights.alone(light->escaped(ray.o, ray.d, path.lambda));
                 break;
             }
             if (hit->area_light) sum += weights.alone(hit->area_light->emitted(*hit, path.lambda));

@@ -108,7 +108,7 @@ struct VolPath final : Integrator {
             if (!walk.specular)
                 pdf = path.scene.light_probability(walk.from, light) *
                       light->pdf_escaped(walk.from, walk.ray.d);
-            sum += walk.found(light->escaped(walk.ray.d, path.lambda), pdf);
+            sum += walk.found(light->escaped(walk.ray.o, walk.ray.d, path.lambda), pdf);
         }
         return sum;
     }

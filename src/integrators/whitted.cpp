@@ -102,7 +102,8 @@ struct Whitted final : Integrator {
     /// What a ray sees that hits nothing: black, or the scene's environment.
     static Spectrum background(const Ray& ray, PathContext& path) {
         Spectrum sum = 0;
-        for (const Light* light : path.scene.infinite_lights()) sum += light->escaped(ray.d, path.lambda);
+        for (const Light* light : path.scene.infinite_lights())
+            sum += light->escaped(ray.o, ray.d, path.lambda);
         return sum;
     }
 };

@@ -153,7 +153,7 @@ struct DiffuseAreaLight final : AreaLight {
     Spectrum radiance(Vec3 ng, Vec3 w, Vec2 uv, const Wavelengths& lambda) const {
         if (!twosided && !(dot(ng, w) > 0)) return 0;
         if (!image_) return color_.eval(lambda);
-        return image_->eval(image_->nearest({uv.x, 1 - uv.y}), lambda) * image_scale_;
+        return image_->bilinear({uv.x, 1 - uv.y}, lambda) * image_scale_;
     }
     void set_image(const Image& image, ColorMode mode) {
         image_ = std::make_shared<const EmissionImage>(image, mode);

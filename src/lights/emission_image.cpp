@@ -8,6 +8,7 @@
 #include "describe/context.h"
 #include "image/codec.h"
 #include "image/image_colors.h"
+#include "image/pyramid.h"
 #include "image/statistics.h"
 
 namespace alhazen {
@@ -53,6 +54,13 @@ Spectrum EmissionImage::eval(Vec2i texel, const Wavelengths& lambda) const {
     if (t.scale == 0) return 0;
     SigmoidCoefficients sigmoid{t.c[0], t.c[1], t.c[2]};
     return sigmoid.eval(lambda.lambda) * space_->illuminant->eval(lambda.lambda) * t.scale;
+}
+
+Spectrum EmissionImage::bilinear(Vec2 uv, const Wavelengths& lambda) const {
+    Spectrum sum = 0;
+    for (const BilinearTap& tap : bilinear_taps(WrapMode::clamp, uv, size_))
+        if (tap.weight != 0) sum += eval(tap.texel, lambda) * tap.weight;
+    return sum;
 }
 
 Vec2i EmissionImage::nearest(Vec2 uv) const {

@@ -25,8 +25,10 @@ class EmissionImage {
     Spectrum eval(Vec2i texel, const Wavelengths& lambda) const;
     /// SpectrumValue's light_scale for all of the image.
     float light_scale() const { return light_scale_; }
-    /// The texel at a point of the unit square, (0, 0) being the upper left corner; points outside are moved
-    /// to the border.
+    /// The light at a point of the unit square, (0, 0) being the upper left corner, blended between the
+    /// middles of texels; points outside are moved to the border.
+    Spectrum bilinear(Vec2 uv, const Wavelengths& lambda) const;
+    /// The texel at a point of the unit square.
     Vec2i nearest(Vec2 uv) const;
 
   private:

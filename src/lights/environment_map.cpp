@@ -1,17 +1,49 @@
 #include "lights/environment_map.h"
 
+#include <memory>
+
+#include "color/tone.h"
 #include "image/image_colors.h"
+#include "image/pyramid.h"
 #include "math/equal_area.h"
 
 namespace alhazen {
 
-EnvironmentMap::EnvironmentMap(const Image& image, ColorMode mode)
-    : texels_(image, mode), distribution_(make_distribution(image)) {
-    integrate(image);
+namespace {
+
+Vec2 equirectangular(Vec3 w) {
+    float phi = std::atan2(w.y, w.x) * (inv_pi / 2);
+    float theta = std::atan2(std::sqrt(w.x * w.x + w.y * w.y), w.z);
+    return {phi < 0 ? phi + 1 : phi, theta * inv_pi};
 }
 
-// Each texel's weight is the light that arrives from it: mean of its channels times its solid angle.
-PiecewiseConstant2D EnvironmentMap::make_distribution(const Image& image) const {
+} // namespace
+
+std::function<Vec3(Vec3)> blended_sky(const Image& image) {
+    if (image.width() == image.height()) {
+        auto texels =
+            std::make_shared<const Pyramid<Vec3>>(rgb_pyramid(image, WrapMode::octahedral_sphere, false));
+        return [texels](Vec3 w) { return texels->bilinear(0, sphere_to_equal_area(w)); };
+    }
+    auto texels = std::make_shared<const Pyramid<Vec3>>(rgb_pyramid(image, WrapMode::repeat, false));
+    // Columns go round; rows end at the poles.
+    const float margin = 0.5f / static_cast<float>(image.height());
+    return [texels, margin](Vec3 w) {
+        Vec2 uv = equirectangular(w);
+        return texels->bilinear(0, {uv.x, std::clamp(uv.y, margin, 1 - margin)});
+    };
+}
+
+EnvironmentMap::EnvironmentMap(const Image& image, ColorMode mode) : texels_(image, mode) {
+    integrate(image);
+    all_ = make_distribution(image, Draw::all);
+    bright_ = make_distribution(image, Draw::bright);
+}
+
+// Each texel's weight is the light that arrives from it, or what is too much of it: mean of its channels
+// times its solid angle.
+PiecewiseConstant2D EnvironmentMap::make_distribution(const Image& image, Draw draw) const {
+    const float enough = draw == Draw::all ? 0 : (mean_rgb_.x + mean_rgb_.y + mean_rgb_.z) / 3;
     Vec2i size = texels_.size();
     std::vector<float> weights;
     weights.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
@@ -19,7 +51,7 @@ PiecewiseConstant2D EnvironmentMap::make_distribution(const Image& image) const 
         float omega = solid_angle(y);
         for (int x = 0; x < size.x; ++x) {
             Vec3 rgb = emitted_rgb(image, x, y);
-            weights.push_back((rgb.x + rgb.y + rgb.z) / 3 * omega);
+            weights.push_back(std::max(0.0f, (rgb.x + rgb.y + rgb.z) / 3 - enough) * omega);
         }
     }
     return PiecewiseConstant2D(weights, size.x, size.y);
@@ -66,20 +98,17 @@ Vec3 EnvironmentMap::direction(Vec2 uv) const {
 }
 
 Vec2i EnvironmentMap::texel_of(Vec3 w) const {
-    if (is_octahedral()) return texels_.nearest(sphere_to_equal_area(w));
-    float phi = std::atan2(w.y, w.x) * (inv_pi / 2);
-    float theta = std::atan2(std::sqrt(w.x * w.x + w.y * w.y), w.z);
-    return texels_.nearest({phi < 0 ? phi + 1 : phi, theta * inv_pi});
+    return texels_.nearest(is_octahedral() ? sphere_to_equal_area(w) : equirectangular(w));
 }
 
-EnvironmentMap::Sample EnvironmentMap::sample(Vec2 u) const {
-    auto s = distribution_.sample(u);
-    return {direction(s.p), pdf(s.cell), s.cell};
+EnvironmentMap::Sample EnvironmentMap::sample(Vec2 u, Draw draw) const {
+    auto s = distribution(draw).sample(u);
+    return {direction(s.p), pdf(s.cell, draw), s.cell};
 }
 
-float EnvironmentMap::pdf(Vec2i texel) const {
+float EnvironmentMap::pdf(Vec2i texel, Draw draw) const {
     auto width = static_cast<float>(texels_.size().x), height = static_cast<float>(texels_.size().y);
-    float per_square = distribution_.pdf(
+    float per_square = distribution(draw).pdf(
         {(static_cast<float>(texel.x) + 0.5f) / width, (static_cast<float>(texel.y) + 0.5f) / height});
     return per_square / (width * height * solid_angle(texel.y));
 }

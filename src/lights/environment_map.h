@@ -4,6 +4,8 @@
 /// hardly varies.
 #pragma once
 
+#include <functional>
+
 #include "lights/emission_image.h"
 #include "math/distribution.h"
 
@@ -18,14 +20,18 @@ class EnvironmentMap {
     /// The size must be valid.
     EnvironmentMap(const Image& image, ColorMode mode);
 
+    /// Which directions are drawn: all in proportion to their light; or, for those who also draw directions
+    /// in other ways, what is brighter than the mean in proportion to how much brighter it is (Karlik et al.
+    /// 2019).
+    enum class Draw { all, bright };
     struct Sample {
         Vec3 w;
         float pdf = 0; ///< per steradian
         Vec2i texel;
     };
-    Sample sample(Vec2 u) const;
+    Sample sample(Vec2 u, Draw draw) const;
     /// Density per steradian with which sample() draws w.
-    float pdf(Vec3 w) const { return pdf(texel_of(w)); }
+    float pdf(Vec3 w, Draw draw) const { return pdf(texel_of(w), draw); }
     Vec2i texel_of(Vec3 w) const;
     /// Light from the texel, not yet calibrated (see EmissionImage).
     Spectrum eval(Vec2i texel, const Wavelengths& lambda) const { return texels_.eval(texel, lambda); }
@@ -40,14 +46,19 @@ class EnvironmentMap {
     bool is_octahedral() const { return texels_.size().x == texels_.size().y; }
     float solid_angle(int row) const;
     Vec3 direction(Vec2 uv) const;
-    float pdf(Vec2i texel) const;
+    float pdf(Vec2i texel, Draw draw) const;
     void integrate(const Image& image);
-    PiecewiseConstant2D make_distribution(const Image& image) const;
+    PiecewiseConstant2D make_distribution(const Image& image, Draw draw) const;
+    const PiecewiseConstant2D& distribution(Draw draw) const { return draw == Draw::all ? all_ : bright_; }
 
     EmissionImage texels_;
-    PiecewiseConstant2D distribution_;
     Vec3 mean_rgb_;
     float illuminance_ = 0;
+    PiecewiseConstant2D all_, bright_;
 };
+
+/// The colours of the image (linear sRGB) as a function of the direction, blended between its pixels. The
+/// size must be valid for an EnvironmentMap.
+std::function<Vec3(Vec3)> blended_sky(const Image& image);
 
 } // namespace alhazen

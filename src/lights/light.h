@@ -95,9 +95,20 @@ struct Light {
     /// Area lights: density per steradian with which sample() would choose the hit, met along wi from the
     /// receiver.
     virtual float pdf_hit(const LightReceiver&, const Hit& /*hit*/, Vec3 /*wi*/) const { return 0; }
-    /// Infinite lights: radiance arriving against direction d (unit) and the density of sample() choosing it.
-    virtual Spectrum escaped(Vec3 /*d*/, const Wavelengths& /*lambda*/) const { return 0; }
+    /// Infinite lights: radiance arriving at p against direction d (unit) and the density of sample()
+    /// choosing it.
+    virtual Spectrum escaped(Vec3 /*p*/, Vec3 /*d*/, const Wavelengths& /*lambda*/) const { return 0; }
     virtual float pdf_escaped(const LightReceiver&, Vec3 /*d*/) const { return 0; }
+
+    /// The same two for integrators that also draw directions from BSDFs and weigh both by their densities:
+    /// light that is found well enough so may be left out here (Karlik et al. 2019, "MIS compensation").
+    virtual std::optional<LightSample> sample_beside_bsdf(const LightReceiver& at, Vec2 u,
+                                                          const Wavelengths& lambda) const {
+        return sample(at, u, lambda);
+    }
+    virtual float pdf_escaped_beside_bsdf(const LightReceiver& at, Vec3 d) const {
+        return pdf_escaped(at, d);
+    }
 
     /// nullopt for infinite lights.
     virtual std::optional<LightBounds> bounds() const { return std::nullopt; }

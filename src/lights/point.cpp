@@ -23,6 +23,7 @@ struct PointLight final : PointLike {
     static void describe(Fields<PointLight>& f) {
         f.about("Shines from one point, alike in all directions.");
         describe_point_like(f, "radiant intensity");
+        describe_from(f);
         f.field(
             "falloff", &PointLight::falloff,
             "how light fades with distance: with its square, or (as simple ray tracers have it) not at all");

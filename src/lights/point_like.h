@@ -25,6 +25,9 @@ struct PointLike : Light {
         f.field("scale", &T::scale, "factor on the intensity").at_least(0);
         f.field("power", &T::power_target, "luminous flux; when positive, the intensity is scaled to give it")
             .unit("lm");
+    }
+    template <class T>
+    static void describe_from(Fields<T>& f) {
         f.field("from", &T::from, "where the light is").unit("scene units");
     }
     /// solid_angle: integral over all directions of what sample_point's factor is made of, without the

@@ -20,6 +20,7 @@ struct SpotLight final : PointLike {
     static void describe(Fields<SpotLight>& f) {
         f.about("Shines from one point into a cone.");
         describe_point_like(f, "radiant intensity in the middle of the cone");
+        describe_from(f);
         f.field("to", &SpotLight::to, "a point in the middle of the cone").unit("scene units");
         f.field("coneangle", &SpotLight::coneangle, "from the middle of the cone to where the light ends")
             .in(0, 180)

@@ -135,9 +135,9 @@ LocalLights::LocalLights(const Scene& scene) {
     }
 }
 
-Spectrum LocalLights::background(Vec3 direction) const {
+Spectrum LocalLights::background(Vec3 origin, Vec3 direction) const {
     Spectrum sum = 0;
-    for (const Light* light : infinite) sum += light->escaped(direction, rgb);
+    for (const Light* light : infinite) sum += light->escaped(origin, direction, rgb);
     return sum;
 }
 

@@ -74,7 +74,7 @@ struct LocalLights {
     std::vector<const Light*> infinite; ///< what is seen where no surface is
 
     explicit LocalLights(const Scene& scene);
-    Spectrum background(Vec3 direction) const;
+    Spectrum background(Vec3 origin, Vec3 direction) const;
 };
 
 } // namespace alhazen

@@ -63,9 +63,10 @@ class TileShading::Shader {
         const Vec2 corner{static_cast<float>(pixel.x), static_cast<float>(pixel.y)};
         const Vec2 middle = corner + seen.sum * (1 / static_cast<float>(seen.samples));
         if (seen.number == DrawnTile::nothing) {
-            const Spectrum L = lights_.infinite.empty()
-                                   ? Spectrum(0)
-                                   : lights_.background(normalize(rays_.direction(middle)));
+            const Spectrum L =
+                lights_.infinite.empty()
+                    ? Spectrum(0)
+                    : lights_.background(rays_.origin(middle), normalize(rays_.direction(middle)));
             return take_(pixel, L, seen.samples);
         }
         if (seen.number != cached_) look_at(seen.number);

@@ -141,6 +141,13 @@ class SceneBuilder {
                 "area lights do not shine in objects that are instanced; this shape is dark");
             return;
         }
+        if (!placed.shape->can_be_light()) {
+            context_.messages.add_error(
+                node.node.place,
+                fmt::format("shape \"{}\" cannot be an area light; take another shape, or no AreaLightSource",
+                            node.node.type));
+            return;
+        }
         auto pattern = area_light_kinds().make(light_node, context_, "");
         if (!pattern) return;
         for (std::uint32_t i = 0; i < placed.shape->primitive_count(); ++i) {

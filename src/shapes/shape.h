@@ -49,6 +49,8 @@ struct Shape {
     /// that bumps are low beside the radius of curvature.
     virtual NormalChange normal_change(const Hit&) const { return {}; }
 
+    /// False where points cannot be chosen on it: it cannot be an area light then.
+    virtual bool can_be_light() const { return true; }
     virtual float area(std::uint32_t primitive) const = 0;
     /// A point uniform over the primitive's area (density 1 / area).
     virtual ShapeSample sample(std::uint32_t primitive, Vec2 u) const = 0;

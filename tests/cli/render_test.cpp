@@ -122,6 +122,13 @@ TEST_F(Render, NestedInstancesUpToTheLimit) {
     expect_error("render nest.pbrt -o a.pfm", "object \"o9\" nests instances 9 deep; at most 8 are possible");
 }
 
+TEST_F(Render, AStrandIsNoLamp) {
+    write("glow.pbrt", "WorldBegin\nAreaLightSource \"diffuse\"\n"
+                       "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 2 0 0 3 0 0 ]\n");
+    expect_error("render glow.pbrt -o a.pfm",
+                 "glow.pbrt:3:1: error: shape \"curve\" cannot be an area light");
+}
+
 TEST_F(Render, AFullDiskIsNoSuccess) {
     EXPECT_EQ(shell(ALHAZEN_PROGRAM " info scene.pbrt > /dev/full").exit_code, 2);
 }

@@ -120,6 +120,17 @@ TEST(Bsdf, SamplesAgreeWithEvaluation) {
     });
 }
 
+// Lights may be left to BSDF sampling (Light::sample_beside_bsdf), which must then find all that is there.
+TEST(Bsdf, WhatIsScatteredCanBeDrawn) {
+    Rng rng(5);
+    for_each_case([&](const BsdfCase& c, Vec3 wo, TransportMode mode) {
+        for (int i = 0; i < 500; ++i) {
+            Scatter s = c.bsdf->eval(wo, sample_sphere({rng.uniform(), rng.uniform()}), mode);
+            ASSERT_TRUE(s.f.is_black() || s.pdf > 0) << s.f[0];
+        }
+    });
+}
+
 // The corners of the unit cube are where divisions by zero hide.
 // Such hits come with any frame around the normal.
 TEST(Bsdf, WhatNeedsNoParametersIsAlikeInAllDirectionsAround) {

@@ -158,6 +158,10 @@ TEST(DiffuseAreaLight, ShowsAnImageUpright) {
             Hit hit = hit_on(shape.sample(0, uv), {0.5f, 0.5f, 1});
             return film_color(mode, [&](const Wavelengths& l) { return light->emitted(hit, l); });
         };
+        // Blended between the middles of the pixels, as pbrt-v4 does.
+        expect_color(seen({0.5f, 0.9f}), {1, 1, 0}, 0.02f);
+        expect_color(seen({0.5f, 0.5f}), Vec3(5, 5, 5) / 2.0f, 0.02f);
+        expect_color(seen({0.75f, 0.625f}), Vec3(0, 2, 0) * 0.75f + Vec3(8, 8, 8) * 0.25f, 0.02f);
         expect_color(seen({0.1f, 0.9f}), {2, 0, 0}, 0.02f);
         expect_color(seen({0.9f, 0.9f}), {0, 2, 0}, 0.02f);
         expect_color(seen({0.1f, 0.1f}), {0, 0, 2}, 0.02f);
