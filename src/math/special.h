@@ -63,4 +63,17 @@ inline float mitchell(float x, float b, float c) {
     return ((12 - 9 * b - 6 * c) * x * x * x + (-18 + 12 * b + 6 * c) * x * x + (6 - 2 * b)) / 6;
 }
 
+/// The modified Bessel function I0 of x >= 0, times exp(-x), within a few float roundings: by its series, and
+/// far out by its asymptotic one (Abramowitz and Stegun 1964, 9.6.12 and 9.7.1).
+inline float bessel_i0_scaled(float x) {
+    if (x > 12) {
+        const float y = 1 / (8 * x);
+        return (1 + y * (1 + y * (4.5f + y * (37.5f + y * 459.375f)))) / std::sqrt(2 * pi * x);
+    }
+    double sum = 1, term = 1;
+    const double quarter = static_cast<double>(x) * static_cast<double>(x) / 4;
+    for (int i = 1; term > sum * 1e-8; ++i) sum += term *= quarter / (i * i);
+    return static_cast<float>(sum * std::exp(-static_cast<double>(x)));
+}
+
 } // namespace alhazen

@@ -61,6 +61,12 @@ void for_each_case(Test test) {
             }
 }
 
+// Hair's model is not symmetric: its importance is the radiance of the way back, and its normal, which
+// belongs to the curve's ribbon, has no part in it.
+bool is_symmetric(const BsdfCase& c) {
+    return c.kind != "hair";
+}
+
 bool is_specular(const BsdfSample& s) {
     return has(s.lobes, Lobes::specular);
 }
@@ -365,7 +371,7 @@ TEST(Bsdf, ModesDifferByEtaSquared) {
     Rng rng(4);
     for (const BsdfCase& c : cases())
         for (Vec3 wo : view_directions())
-            for (int i = 0; i < 50; ++i) {
+            for (int i = 0; i < 50 && is_symmetric(c); ++i) {
                 float u = rng.uniform();
                 Vec2 u2{rng.uniform(), rng.uniform()};
                 auto radiance = c.bsdf->sample(wo, u, u2, TransportMode::radiance);
@@ -401,7 +407,7 @@ Albedo estimate_albedo(const Bsdf& bsdf, Vec3 wo, TransportMode mode, int sample
 }
 
 bool is_lossless(const BsdfCase& c) {
-    if (c.kind == "thindielectric") return true;
+    if (c.kind == "thindielectric" || (c.kind == "hair" && c.example == "white")) return true;
     if (c.kind == "dielectric") return !has(c.bsdf->lobes(), Lobes::glossy);
     return (c.kind == "diffuse" && c.example == "white") ||
            (c.kind == "conductor" && c.example == "perfect mirror");
@@ -412,6 +418,7 @@ bool is_lossless(const BsdfCase& c) {
 TEST(Bsdf, WhiteFurnaceKeepsEnergy) {
     Rng rng(5);
     for_each_case([&](const BsdfCase& c, Vec3 wo, TransportMode mode) {
+        if (mode == TransportMode::importance && !is_symmetric(c)) return;
         Albedo a = estimate_albedo(*c.bsdf, wo, mode, 4000, rng);
         ASSERT_LE(a.mean.max(), 1 + 1e-4f + (is_lossless(c) ? 0 : 5 * a.error));
         if (is_lossless(c)) {
