@@ -206,8 +206,7 @@ class SppmWork final : public PictureWork {
             const Frame frame = hit->shading_frame();
             const Lobes lobes = bsdf->lobes();
             if (has(lobes, Lobes::diffuse | Lobes::glossy)) {
-                if (std::optional<DirectLight> direct =
-                        propose_light(*hit, *bsdf, frame, path, LightSampling::beside_bsdf)) {
+                if (auto direct = propose_light(*hit, *bsdf, frame, path, LightSampling::beside_bsdf)) {
                     const bool visible = co_await path.visible(direct->shadow_ray);
                     if (visible) sight.direct += throughput * direct->value * direct->mis_weight();
                 }

@@ -68,7 +68,7 @@ void check_directions(const Light& light) {
         return static_cast<double>(light.pdf_leaving(ng, w).direction);
     };
     const testing_support::Box2 box{0, 2 * pi_d, static_cast<double>(std::cos(widest)), 1};
-    EXPECT_GT(chi_square_2d(sample, density, box, 50000, 16, 24), p_threshold);
+    EXPECT_GT(chi_square_2d(sample, density, box, 50000, 16, 96), p_threshold);
 }
 
 void check_power(const Light& light) {
