@@ -245,7 +245,7 @@ TEST_F(MaterialTest, UnknownKindIsAnErrorOrGrey) {
     Messages lenient;
     lenient.lenient = true;
     BuildContext context{lenient};
-    set.build({node_of("hair", {make_float("beta_m", 0.3f)})}, context);
+    set.build({node_of("velvet", {make_float("beta_m", 0.3f)})}, context);
     EXPECT_NE(set.at(0), nullptr);
     EXPECT_EQ(lenient.error_count(), 0u);
     EXPECT_THAT(lenient.warnings().at(0).text, HasSubstr("using \"diffuse\""));
@@ -253,7 +253,7 @@ TEST_F(MaterialTest, UnknownKindIsAnErrorOrGrey) {
 
 TEST_F(MaterialTest, LenientKeepsTheParametersOfUnknownKinds) {
     messages.lenient = true;
-    build({node_of("hair", {make_rgb("reflectance", 0.8f, 0.1f, 0.1f), make_float("beta_m", 0.1f)})},
+    build({node_of("velvet", {make_rgb("reflectance", 0.8f, 0.1f, 0.1f), make_float("beta_m", 0.1f)})},
           ColorMode::rgb);
     ASSERT_NE(set.find("m"), nullptr);
     EXPECT_EQ(messages.error_count(), 0u);
