@@ -52,7 +52,7 @@ std::vector<AccelChoice> choices_of(const AccelOptions& options) {
             if (builder.empty() || walk.empty())
                 throw std::runtime_error(builder.empty() ? "--builder: a name is missing"
                                                          : "--walk: a name is missing");
-            auto choice = parse_accel(builder + "/" + walk, error);
+            auto choice = parse_accel(fmt::format("{}/{}", builder, walk), error);
             if (!choice) throw std::runtime_error(error);
             if (options.settings.stack_entries)
                 choice->walk_options.stack_entries = *options.settings.stack_entries;

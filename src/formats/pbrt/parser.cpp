@@ -167,7 +167,8 @@ void PbrtParser::option(Place place) {
         fail_at(token, fmt::format("expected a value for the option \"{}\", found {}", printable(name),
                                    describe_token(token)));
     }
-    if (bracketed && (token = tokens().next()).kind != Kind::close)
+    if (bracketed) token = tokens().next();
+    if (bracketed && token.kind != Kind::close)
         fail_at(token, fmt::format("expected \"]\" after one value, found {}", describe_token(token)));
     builder_.option(name, std::move(value), std::move(place));
 }
