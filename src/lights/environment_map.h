@@ -57,8 +57,8 @@ class EnvironmentMap {
     PiecewiseConstant2D all_, bright_;
 };
 
-/// The colours of the image (linear sRGB) as a function of the direction, blended between its pixels. The
-/// size must be valid for an EnvironmentMap.
+/// The colours of the image (linear, in its own colour space) as a function of the direction, blended between
+/// its pixels. The size must be valid for an EnvironmentMap.
 std::function<Vec3(Vec3)> blended_sky(const Image& image);
 
 } // namespace alhazen

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "color/tone.h"
+#include "image/image_colors.h"
 #include "lights/environment_map.h"
 #include "lights/light.h"
 #include "lights/light_parts.h"
@@ -58,7 +59,7 @@ struct InfiniteLight final : Light {
             const Vec3 rgb = L.value.linear_srgb();
             constexpr int resolution = 64; // enough for samples that are uniform over the solid angle
             set_portal(
-                resolution, [rgb](Vec3) { return rgb; }, 2 * pi * luminance(rgb), context);
+                resolution, [rgb](Vec3) { return rgb; }, srgb_space(), 2 * pi * luminance(rgb), context);
         } else {
             // A uniform sky of luminance 1 gives a horizontal surface pi.
             color_ = calibrated(L.value, scale_for(pi), context.color_mode);
@@ -182,8 +183,8 @@ struct InfiniteLight final : Light {
         if (!portal.empty()) {
             auto sky = blended_sky(*image);
             set_portal(
-                image->height(), [&](Vec3 w) { return sky(space_.to_light(w)); }, counted_illuminance,
-                context);
+                image->height(), [&](Vec3 w) { return sky(space_.to_light(w)); }, color_space_of(*image),
+                counted_illuminance, context);
             return;
         }
         map_ = std::move(map);
@@ -193,9 +194,9 @@ struct InfiniteLight final : Light {
         color_ =
             calibrated(SpectrumValue::illuminant_rgb(srgb_space(), map_->mean_rgb()), s, context.color_mode);
     }
-    void set_portal(int resolution, const std::function<Vec3(Vec3)>& sky, float illuminance_of_1,
-                    BuildContext& context) {
-        portal_ = std::make_shared<const PortalMap>(corners(), resolution, sky, context.color_mode);
+    void set_portal(int resolution, const std::function<Vec3(Vec3)>& sky, const RgbColorSpace& colors,
+                    float illuminance_of_1, BuildContext& context) {
+        portal_ = std::make_shared<const PortalMap>(corners(), resolution, sky, colors, context.color_mode);
         const float s = scale_for(illuminance_of_1);
         image_scale_ = s * portal_->light_scale();
         color_ =

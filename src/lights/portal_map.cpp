@@ -19,12 +19,13 @@ bool is_rectangle(const PortalCorners& c) {
 }
 
 PortalMap::PortalMap(const PortalCorners& corners, int resolution, const std::function<Vec3(Vec3)>& sky,
-                     ColorMode mode)
+                     const RgbColorSpace& space, ColorMode mode)
     : lo_(corners[0]), hi_(corners[2]) {
     const Vec3 x = corners[3] - corners[0], y = corners[1] - corners[0];
     frame_ = Frame::from_z_and_tangent(normalize(cross(x, y)), x);
     const auto n = static_cast<std::size_t>(resolution);
     Image image = Image::rgb_image(resolution, resolution);
+    image.info.metadata["color_space"] = space.name;
     std::vector<float> weights(n * n);
     const float cell = 1 / static_cast<float>(resolution);
     Vec3d sum;
@@ -41,7 +42,8 @@ PortalMap::PortalMap(const PortalCorners& corners, int resolution, const std::fu
         }
     texels_.emplace(image, mode);
     distribution_.emplace(weights, resolution, resolution);
-    flux_ = Vec3(sum / static_cast<double>(n * n)) * (length(x) * length(y));
+    flux_ =
+        convert_rgb(space, srgb_space()) * Vec3(sum / static_cast<double>(n * n)) * (length(x) * length(y));
 }
 
 // The angles of the direction about the window's sides, each from -90 to 90 degrees over the unit interval.

@@ -23,10 +23,10 @@ bool is_rectangle(const PortalCorners& corners);
 /// (corner 3 - corner 0) x (corner 1 - corner 0); from the other side nothing is seen.
 class PortalMap {
   public:
-    /// The corners must be those of a rectangle. sky gives the radiance from a direction, linear sRGB; it is
-    /// asked for resolution^2 of them.
+    /// The corners must be those of a rectangle. sky gives the radiance from a direction in the given colour
+    /// space, linear; it is asked for resolution^2 of them. Negative components count as 0.
     PortalMap(const PortalCorners& corners, int resolution, const std::function<Vec3(Vec3)>& sky,
-              ColorMode mode);
+              const RgbColorSpace& space, ColorMode mode);
 
     struct Sample {
         Vec3 w;

@@ -57,7 +57,7 @@ TEST(Portal, IsSeenWhereRaysPassThroughTheWindow) {
 }
 
 TEST(Portal, SamplesFollowTheirDensityFromEveryPlace) {
-    PortalMap map(portal_corners(), 32, smooth_sky, ColorMode::rgb);
+    PortalMap map(portal_corners(), 32, smooth_sky, srgb_space(), ColorMode::rgb);
     Rng rng(2);
     for (Vec3 p : {Vec3(0, 0, 0), Vec3(4, -3, 1), Vec3(0.1f, 0.2f, 1.9f)}) {
         // On the window, where the density over area is that over solid angle times cos / distance^2.
@@ -131,6 +131,47 @@ TEST(Portal, SampledLightIsThatOfTheImageBehindTheWindow) {
             Spectrum e = sampled_irradiance(*light, at, Wavelengths::rgb(), 200);
             expect_color({e[0], e[1], e[2]}, irradiance_by_area(at, sky), 0.01f);
         }
+    }
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Portal, ShowsTheColoursOfTheImagesOwnSpace) {
+    const RgbColorSpace& space = *find_color_space("rec2020");
+    const Vec3 rgb{0.5f, 1, 0.25f};
+    const Vec3 expected = convert_rgb(space, srgb_space()) * rgb;
+    for (ColorMode mode : both_modes) {
+        PortalMap map(
+            portal_corners(), 16, [&](Vec3) { return rgb; }, space, mode);
+        const auto seen = map.texel_seen({}, {0, 0, 1});
+        ASSERT_TRUE(seen);
+        expect_color(
+            film_color(mode, [&](const Wavelengths& l) { return map.eval(*seen, l) * map.light_scale(); }),
+            expected, 5e-3f);
+        // Through an area of 6, from all directions of the half space: 6 pi; the square has 16 x 16 of them.
+        expect_color(map.flux(), expected * (6 * pi), 0.02f);
+    }
+}
+
+TEST(Portal, ReadsTheSpaceFromTheFile) {
+    auto folder = std::filesystem::temp_directory_path() / "alhazen_lights_portal_space";
+    std::filesystem::create_directories(folder);
+    Image image = Image::rgb_image(16, 16);
+    const Vec3 rgb{0.5f, 1, 0.25f};
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) image.set_rgb(x, y, rgb);
+    image.info.metadata["color_space"] = "rec2020";
+    write_image(folder / "sky.exr", image);
+    for (ColorMode mode : both_modes) {
+        auto through_all = make_light("infinite", {make_string("filename", "sky.exr")}, {mode, {}, folder});
+        auto through_window = make_light("infinite", {make_string("filename", "sky.exr"), portal_of(corners)},
+                                         {mode, {}, folder});
+        ASSERT_TRUE(through_all && through_window);
+        auto color_of = [&](const Light& light) {
+            return film_color(mode, [&](const Wavelengths& l) { return light.escaped({}, {0, 0, 1}, l); });
+        };
+        expect_color(color_of(*through_window), color_of(*through_all), 1e-3f);
+        expect_color(color_of(*through_window), convert_rgb(*find_color_space("rec2020"), srgb_space()) * rgb,
+                     5e-3f);
     }
     std::filesystem::remove_all(folder);
 }
