@@ -35,12 +35,14 @@ struct Mesh {
         int first = next();
         Vec3 centre = (lo + hi) * 0.5f;
         for (int corner = 0; corner < 8; ++corner) {
-            Vec3 q = Vec3{corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z} - centre;
+            Vec3 q =
+                Vec3{corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z} - centre;
             points.push_back(centre + Vec3{q.x * std::cos(angle) - q.z * std::sin(angle), q.y,
                                            q.x * std::sin(angle) + q.z * std::cos(angle)});
         }
-        for (const std::array<int, 4>& f : {std::array{0, 1, 3, 2}, std::array{4, 6, 7, 5}, std::array{0, 4, 5, 1},
-                                            std::array{2, 3, 7, 6}, std::array{0, 2, 6, 4}, std::array{1, 5, 7, 3}})
+        for (const std::array<int, 4>& f :
+             {std::array{0, 1, 3, 2}, std::array{4, 6, 7, 5}, std::array{0, 4, 5, 1}, std::array{2, 3, 7, 6},
+              std::array{0, 2, 6, 4}, std::array{1, 5, 7, 3}})
             quad(first + f[0], first + f[1], first + f[2], first + f[3]);
     }
     // With bumps of that fraction of the radius.
@@ -188,8 +190,8 @@ void add_bay(Mesh& mesh, float x, float z) {
     mesh.box({x, 6.4f, z - 0.05f}, {x + 2.45f, 6.5f, z + 0.05f});
 }
 
-/// A nave between columns: long thin boxes, large walls, much that is hidden. Statues: bumpy balls of as many rings, or
-/// none.
+/// A nave between columns: long thin boxes, large walls, much that is hidden. Statues: bumpy balls of as many
+/// rings, or none.
 SceneDescription hall(int statue_rings) {
     Mesh mesh;
     mesh.box({-15, -0.2f, -4}, {15, 0, 4});
@@ -202,7 +204,8 @@ SceneDescription hall(int statue_rings) {
         mesh.box({x, 11, -4}, {x + 0.1f, 11.2f, 4}, 0.3f);
     }
     for (int k = 0; statue_rings > 0 && k < 8; ++k)
-        for (float z : {-1.1f, 1.1f}) mesh.ball({-12 + 3 * static_cast<float>(k), 1.3f, z}, 0.7f, statue_rings, 0.2f);
+        for (float z : {-1.1f, 1.1f})
+            mesh.ball({-12 + 3 * static_cast<float>(k), 1.3f, z}, 0.7f, statue_rings, 0.2f);
     return scene_of(std::move(mesh), {{-13, 3, 0.5f}, {10, 4, -0.5f}, 60, {2, 10.5f, 1}, 1});
 }
 

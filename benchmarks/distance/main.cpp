@@ -1,6 +1,7 @@
-/// bench_distance SCENE...: accelerator "sdf" beside exact tracing. Prints, for each scene and number of cells, how
-/// far the picture is from an exact one with another seed (and how far two exact ones are from each other, which is
-/// the noise), what building the field takes, and how many times as fast the picture is made.
+/// bench_distance SCENE...: accelerator "sdf" beside exact tracing. Prints, for each scene and number of
+/// cells, how far the picture is from an exact one with another seed (and how far two exact ones are from
+/// each other, which is the noise), what building the field takes, and how many times as fast the picture is
+/// made.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -41,8 +42,8 @@ Made make(const std::string& file, const Options& options, int cells, std::uint6
     Made made;
     std::unique_ptr<World> world;
     SceneDescription description = read_scene(file, messages);
-    made.build_s = processor_seconds_of(
-        [&] { world = build_world(std::move(description), settings, messages); });
+    made.build_s =
+        processor_seconds_of([&] { world = build_world(std::move(description), settings, messages); });
     made.render_s = processor_seconds_of([&] { render(*world, settings, {}); });
     made.image = world->film->image();
     return made;
@@ -70,8 +71,8 @@ void compare(const std::string& file, const Options& options) {
             image = field.image;
         }
         print_error(fmt::format("field of {} cells", cells), image, reference.image);
-        fmt::print("x{:.2f} as fast (spread {:.2f}), built in {:.2f} s\n", median_of(ratios), spread_of(ratios),
-                   median_of(builds));
+        fmt::print("x{:.2f} as fast (spread {:.2f}), built in {:.2f} s\n", median_of(ratios),
+                   spread_of(ratios), median_of(builds));
     }
 }
 

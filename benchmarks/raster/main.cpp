@@ -1,5 +1,6 @@
-/// How long the rasteriser takes for a picture, beside ray casting of the same: scenes made by formula and scene files.
-/// Both run in turn in one process; what counts is the median, and for the comparison the median of the ratios.
+/// How long the rasteriser takes for a picture, beside ray casting of the same: scenes made by formula and
+/// scene files. Both run in turn in one process; what counts is the median, and for the comparison the median
+/// of the ratios.
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -32,7 +33,8 @@ SceneDescription describe(const std::string& scene, Messages& messages) {
     return read_scene(scene, messages);
 }
 
-std::unique_ptr<World> make_world(const std::string& scene, const Options& options, int samples, bool by_rays) {
+std::unique_ptr<World> make_world(const std::string& scene, const Options& options, int samples,
+                                  bool by_rays) {
     Messages messages;
     messages.lenient = true;
     RenderSettings settings;
@@ -69,7 +71,8 @@ double visibility_milliseconds(const World& world, const Options& options) {
 }
 
 void run(const std::string& scene, int samples, const Options& options) {
-    auto raster = make_world(scene, options, samples, false), rays = make_world(scene, options, samples, true);
+    auto raster = make_world(scene, options, samples, false),
+         rays = make_world(scene, options, samples, true);
     std::vector<double> visible, whole, cast, ratio, busy;
     for (int i = 0; i < options.repeat; ++i) {
         visible.push_back(visibility_milliseconds(*raster, options));
@@ -80,12 +83,12 @@ void run(const std::string& scene, int samples, const Options& options) {
         ratio.push_back(cast.back() / whole.back());
     }
     std::sort(whole.begin(), whole.end());
-    fmt::print("{:<40} {:>8} triangles {:>3} samples: visibility {:6.1f} ms, picture {:6.1f} ms (best {:.1f}, "
-               "processor {:.1f} a thread), by rays "
-               "{:7.1f} ms, x{:.1f}\n",
-               scene, raster->scene->counts().triangles, samples, median_of(visible), median_of(whole), whole.front(),
-               median_of(busy),
-               median_of(cast), median_of(ratio));
+    fmt::print(
+        "{:<40} {:>8} triangles {:>3} samples: visibility {:6.1f} ms, picture {:6.1f} ms (best {:.1f}, "
+        "processor {:.1f} a thread), by rays "
+        "{:7.1f} ms, x{:.1f}\n",
+        scene, raster->scene->counts().triangles, samples, median_of(visible), median_of(whole),
+        whole.front(), median_of(busy), median_of(cast), median_of(ratio));
     std::fflush(stdout);
 }
 

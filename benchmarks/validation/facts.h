@@ -17,6 +17,8 @@ struct PeerRun {
 struct SceneFacts {
     std::string name;
     PeerRun few, many;
+    /// How far the means differ by design, at most; docs/validation.md says why. 0: they do not.
+    double known_difference = 0;
 };
 
 /// In the order of the page. The figures are pbrt-v4's, as the scenes' README has them.
