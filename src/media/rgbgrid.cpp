@@ -46,9 +46,9 @@ struct RgbGrid final : BoxMedium {
     static void describe(Fields<RgbGrid>& f) {
         f.about("Matter whose absorption, scattering and glow are given as colours at the centres of the "
                 "cells of a box.");
-        f.field("nx", &RgbGrid::nx, "cells along x").at_least(1);
-        f.field("ny", &RgbGrid::ny, "cells along y").at_least(1);
-        f.field("nz", &RgbGrid::nz, "cells along z").at_least(1);
+        f.field("nx", &RgbGrid::nx, "cells along x").in(1, 65536);
+        f.field("ny", &RgbGrid::ny, "cells along y").in(1, 65536);
+        f.field("nz", &RgbGrid::nz, "cells along z").in(1, 65536);
         f.field("sigma_a", &RgbGrid::sigma_a,
                 "nx ny nz colours (rgb), x running fastest: how much light is absorbed per length")
             .at_least(0)

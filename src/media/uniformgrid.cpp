@@ -20,9 +20,9 @@ struct UniformGrid final : BoxMedium {
 
     static void describe(Fields<UniformGrid>& f) {
         f.about("Matter whose density is given at the centres of the cells of a box.");
-        f.field("nx", &UniformGrid::nx, "cells along x").at_least(1);
-        f.field("ny", &UniformGrid::ny, "cells along y").at_least(1);
-        f.field("nz", &UniformGrid::nz, "cells along z").at_least(1);
+        f.field("nx", &UniformGrid::nx, "cells along x").in(1, 65536);
+        f.field("ny", &UniformGrid::ny, "cells along y").in(1, 65536);
+        f.field("nz", &UniformGrid::nz, "cells along z").in(1, 65536);
         f.field("density", &UniformGrid::density, "nx ny nz densities, x running fastest")
             .at_least(0)
             .required();
