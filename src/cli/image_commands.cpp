@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/commands.h"
-#include "color/color_space.h"
 #include "color/tone.h"
 #include "image/codec.h"
 #include "image/image_colors.h"
@@ -32,29 +32,44 @@ void save(const std::string& file, const Image& image, const WriteOptions& optio
 }
 
 struct ConvertOptions {
-    std::string in, out, tonemap = "none", transfer = "srgb";
+    std::string in, out, layer, tonemap = "none", transfer = "srgb";
     float exposure = 0;
     int quality = 95;
     bool single = false;
 };
 
-// Tone curves are made for sRGB's primaries.
-void to_srgb(Image& image) {
-    auto name = image.info.metadata.find("color_space");
-    if (name == image.info.metadata.end()) return;
-    const RgbColorSpace* space = find_color_space(name->second);
-    image.info.metadata.erase(name);
-    if (!space) return;
-    Matrix3 convert = convert_rgb(*space, srgb_space());
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) image.set_rgb(x, y, convert * image.rgb(x, y));
+// The three channels NAME.R, NAME.G, NAME.B or NAME.X, NAME.Y, NAME.Z, or the one channel NAME, as a picture.
+Image layer_of(const Image& image, const ConvertOptions& options) {
+    std::vector<std::string> channels;
+    for (const char* letters : {"RGB", "XYZ"}) {
+        channels.clear();
+        for (const char* c = letters; *c; ++c)
+            if (std::string name = options.layer + "." + *c; image.channel_index(name))
+                channels.push_back(name);
+        if (channels.size() == 3) break;
+    }
+    if (channels.size() != 3 && image.channel_index(options.layer)) channels.assign(3, options.layer);
+    if (channels.size() != 3)
+        throw std::runtime_error(fmt::format("{}: there is no layer \"{}\"; the channels are {}", options.in,
+                                             options.layer, fmt::join(image.channel_names(), ", ")));
+    Image layer = Image::rgb_image(image.width(), image.height());
+    layer.info = image.info;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const int from = *image.channel_index(channels[c]);
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x)
+                layer.at(x, y, static_cast<int>(c)) = image.at(x, y, from);
+    }
+    return layer;
 }
 
 int run_convert(const ConvertOptions& options) {
     Image image = load(options.in);
     ToneCurve curve = *find_tone_curve(options.tonemap);
     if (!std::isfinite(options.exposure)) throw std::runtime_error("--exposure must be a finite number");
-    if (curve != ToneCurve::none) to_srgb(image);
+    if (!options.layer.empty()) image = layer_of(image, options);
+    // Tone curves are made for sRGB's primaries.
+    if (curve != ToneCurve::none) image = in_srgb(std::move(image));
     float gain = std::exp2(options.exposure);
     if (gain != 1 || curve != ToneCurve::none)
         for (int y = 0; y < image.height(); ++y)
@@ -108,6 +123,10 @@ void add_convert_command(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("convert", "convert an image to another format");
     command->add_option("IN", options->in, "image to read")->required();
     command->add_option("OUT", options->out, "image to write; the suffix says the format")->required();
+    command
+        ->add_option("--layer", options->layer,
+                     "of an image with more channels, those of this name: Albedo, N, P ...")
+        ->type_name("NAME");
     command
         ->add_option("--exposure", options->exposure, "make it brighter by this many stops (factors of two)")
         ->check(CLI::Range(-100.0f, 100.0f))

@@ -35,6 +35,15 @@ Json vector_json(Vec3 v) {
     return {v.x, v.y, v.z};
 }
 
+// Of a texture or a medium.
+Json describe_named(const Node& node) {
+    Json json{{"name", node.name}, {"type", node.type}};
+    if (const Parameter* file = node.find("filename"))
+        if (auto* names = std::get_if<std::vector<std::string>>(&file->values); names && !names->empty())
+            json["file"] = names->front();
+    return json;
+}
+
 // What the description alone tells; the parameters are gone once the world is built.
 Json describe_nodes(const SceneDescription& scene) {
     auto node_of = [](const auto& item) -> const Node& { return item.node; };
@@ -50,13 +59,12 @@ Json describe_nodes(const SceneDescription& scene) {
     json["area_lights"] = count_types(scene.area_lights, itself);
     json["textures"] = Json::array();
     for (const TextureNode& t : scene.textures) {
-        Json texture{
-            {"name", t.node.name}, {"type", t.node.type}, {"value", t.is_spectrum ? "spectrum" : "float"}};
-        if (const Parameter* file = t.node.find("filename"))
-            if (auto* names = std::get_if<std::vector<std::string>>(&file->values); names && !names->empty())
-                texture["file"] = names->front();
+        Json texture = describe_named(t.node);
+        texture["value"] = t.is_spectrum ? "spectrum" : "float";
         json["textures"].push_back(texture);
     }
+    json["media"] = Json::array();
+    for (const TextureNode& medium : scene.media) json["media"].push_back(describe_named(medium.node));
     json["objects"] = scene.objects.size();
     return json;
 }
@@ -96,6 +104,10 @@ std::string bytes_text(double bytes) {
     return fmt::format("{:.2f} GB", bytes / 1e9);
 }
 
+std::string file_text(const Json& named) {
+    return named.contains("file") ? "  " + named["file"].get<std::string>() : "";
+}
+
 void print_text(const Json& j) {
     fmt::print("{}\n", j["scene"].get<std::string>());
     fmt::print("  film         {} x {}, {} spp\n", j["film"]["width"].get<int>(),
@@ -113,10 +125,13 @@ void print_text(const Json& j) {
         std::string size = t.contains("width")
                                ? fmt::format("  {} x {}", t["width"].get<int>(), t["height"].get<int>())
                                : "";
-        std::string file = t.contains("file") ? "  " + t["file"].get<std::string>() : "";
         fmt::print("    {:<24}{} {}{}{}\n", t["name"].get<std::string>(), t["value"].get<std::string>(),
-                   t["type"].get<std::string>(), size, file);
+                   t["type"].get<std::string>(), size, file_text(t));
     }
+    fmt::print("  media        {}\n", j["media"].size());
+    for (const Json& medium : j["media"])
+        fmt::print("    {:<24}{}{}\n", medium["name"].get<std::string>(), medium["type"].get<std::string>(),
+                   file_text(medium));
     if (j.contains("bounds")) {
         auto corner = [&](const char* key) {
             const Json& v = j["bounds"][key];

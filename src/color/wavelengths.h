@@ -60,14 +60,14 @@ struct Wavelengths {
         }
         return w;
     }
-    /// Four partners of the uniform density; 0 <= u < 1.
-    static Wavelengths uniform(float u) {
-        constexpr float range = lambda_max - lambda_min;
+    /// Four partners of the uniform density from lo to hi (nm); 0 <= u < 1.
+    static Wavelengths uniform(float u, float lo = lambda_min, float hi = lambda_max) {
+        const float range = hi - lo;
         Wavelengths w{ColorMode::spectral, 0, 1 / range};
         for (int i = 0; i < 4; ++i) {
             float partner = u + 0.25f * static_cast<float>(i);
             if (partner >= 1) partner -= 1;
-            w.lambda.set(i, std::min(lambda_min + range * partner, lambda_max));
+            w.lambda.set(i, std::min(lo + range * partner, hi));
         }
         return w;
     }

@@ -7,6 +7,7 @@
 #include "color/wavelengths.h"
 #include "describe/kind.h"
 #include "film/filter.h"
+#include "film/visible_surface.h"
 #include "image/image.h"
 
 namespace alhazen {
@@ -35,6 +36,14 @@ struct Film {
     /// agree.
     virtual void add(Vec2i pixel, Spectrum L, const Wavelengths& lambda, float weight) = 0;
 
+    /// Whether add_surface() does something; the film is then for integrators that follow camera rays one by
+    /// one only.
+    virtual bool wants_surfaces() const { return false; }
+    /// What a sample sees first, if there is a surface.
+    virtual void add_surface(Vec2i /*pixel*/, const VisibleSurface&, const Wavelengths&) {}
+    /// The wavelengths of a sample; u in [0, 1). Spectral mode only.
+    virtual Wavelengths sample_wavelengths(float u) const { return Wavelengths::sample_visible(u); }
+
     /// Whether light can be brought to any place, from any thread at any time, to be spread by the filter;
     /// the functions for such splats are for films that take them only.
     virtual bool takes_splats() const { return false; }
@@ -59,7 +68,7 @@ struct Film {
     virtual Image image() const = 0;
 };
 
-/// finish() takes context.exposure_time.
+/// finish() takes context.exposure_time and world_from_camera.
 const KindList<Film>& film_kinds();
 
 } // namespace alhazen

@@ -26,6 +26,8 @@ struct Integrator {
     virtual bool sets_pixels() const { return false; }
     /// Names of pictures that they splat beside the one that is wanted: the film's layers from 1 on.
     virtual std::vector<std::string> splat_layers() const { return {}; }
+    /// True where pixels are made of radiance() along camera rays, followed one by one through PathContext.
+    virtual bool follows_camera_rays() const { return true; }
     /// For integrators that make pictures as a whole: the work on this one. nullptr: the picture is made of
     /// radiance().
     virtual std::unique_ptr<PictureWork> whole_picture(const PictureOrder& /*picture*/) const {

@@ -23,6 +23,7 @@ struct LightPath final : Integrator {
     }
 
     bool makes_splats() const override { return true; }
+    bool follows_camera_rays() const override { return false; }
     void prepare(const PictureOrder& picture) override {
         camera_ = &picture.camera;
         film_ = &picture.film;

@@ -306,6 +306,7 @@ struct Mlt final : Integrator, MltOptions {
     int samples_per_pixel(int, std::optional<int> asked) const override {
         return asked.value_or(mutationsperpixel);
     }
+    bool follows_camera_rays() const override { return false; }
     std::unique_ptr<PictureWork> whole_picture(const PictureOrder& picture) const override {
         return std::make_unique<MltWork>(picture, *this);
     }

@@ -7,6 +7,7 @@
 
 #include "base/arena.h"
 #include "color/wavelengths.h"
+#include "film/visible_surface.h"
 #include "integrators/ray_queue.h"
 #include "integrators/task.h"
 #include "samplers/sampler.h"
@@ -41,6 +42,8 @@ class PathContext {
     SampleStream samples;
     Wavelengths lambda;
     Arena& arena;
+    /// Is told what the camera ray sees first; nullptr when nobody asks.
+    VisibleSurface* surface = nullptr;
 
     /// The pair of random numbers for a point on the light; none are drawn for a light without size.
     Vec2 pair_for(const Light& light) {
@@ -54,6 +57,7 @@ class PathContext {
         // The first ray of a path comes from the camera.
         ++(first_ray_ ? counts_.camera : counts_.bounce);
         const DistanceScene* approximation = first_ray_ ? nullptr : scene.approximation();
+        if (first_ray_) first_direction_ = ray.d;
         first_ray_ = false;
         return Closest{*this, ray, approximation};
     }
@@ -77,7 +81,9 @@ class PathContext {
         // The hit is made here, where it will stay.
         std::optional<Hit> await_resume() const {
             if (approximation) return approximation->closest(ray);
-            return path.queue_ ? Scene::surface(path.queue_->found(place)) : path.scene.closest(ray);
+            auto hit = path.queue_ ? Scene::surface(path.queue_->found(place)) : path.scene.closest(ray);
+            if (path.surface && hit) path.see(ray, *hit);
+            return hit;
         }
     };
     struct Visible {
@@ -96,10 +102,13 @@ class PathContext {
         }
     };
 
+    void see(const Ray& ray, const Hit& hit);
+
     RayCounts& counts_;
     RayQueue* queue_;
     std::uint32_t number_;
     bool first_ray_ = true;
+    Vec3 first_direction_;
 };
 
 inline Arena& task_detail::arena_of(PathContext& path) {

@@ -112,6 +112,7 @@ struct Raster final : Integrator {
                          shadow_maps_ ? &*shadow_maps_ : nullptr);
     }
 
+    bool follows_camera_rays() const override { return false; }
     std::unique_ptr<PictureWork> whole_picture(const PictureOrder& picture) const override {
         if (!picture.camera.projection()) return nullptr;
         return std::make_unique<RasterWork>(picture, *lights_, *shading_);

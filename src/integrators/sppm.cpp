@@ -386,6 +386,7 @@ struct Sppm final : Integrator, SppmOptions {
     }
 
     bool sets_pixels() const override { return true; }
+    bool follows_camera_rays() const override { return false; }
     std::unique_ptr<PictureWork> whole_picture(const PictureOrder& picture) const override {
         return std::make_unique<SppmWork>(picture, *this);
     }

@@ -31,7 +31,9 @@ struct Flight::Path {
     Vec2i pixel;
     int sample = 0;
     float filter_weight = 1;
+    CameraSample camera_sample;
     Spectrum camera_weight = 1;
+    VisibleSurface surface; ///< for films that want it
 };
 
 /// A sample that has ended.
@@ -41,8 +43,23 @@ struct Flight::Result {
     Spectrum radiance = 0;
     Wavelengths lambda;
     float weight = 1;
+    VisibleSurface surface;
     bool is_done = false;
 };
+
+namespace {
+
+/// How the point that a ray sees moves over its tangent plane when the ray's place on the film does.
+Vec3 movement(const Camera& camera, CameraSample at, Vec2 step, const VisibleSurface& surface) {
+    at.film += step;
+    auto beside = camera.ray(at);
+    if (!beside) return {};
+    const float t = dot(surface.p - beside->ray.o, surface.n) / dot(beside->ray.d, surface.n);
+    const Vec3 moved = beside->ray.at(t) - surface.p;
+    return t > 0 && is_finite(moved) ? moved : Vec3();
+}
+
+} // namespace
 
 Flight::Flight(World& world, int paths, bool centred)
     : world_(world), centred_(centred), results_(ring_size) {
@@ -80,8 +97,9 @@ bool Flight::start_next(Path& path) {
         if (!centred_) filter = world_.filter->sample(stream.pixel2());
         path.filter_weight = filter.weight;
         Wavelengths lambda = Wavelengths::rgb();
-        if (world_.mode == ColorMode::spectral) lambda = Wavelengths::sample_visible(stream.next1());
-        CameraSample at;
+        if (world_.mode == ColorMode::spectral) lambda = world_.film->sample_wavelengths(stream.next1());
+        CameraSample& at = path.camera_sample;
+        at = {};
         at.film = {static_cast<float>(path.pixel.x) + 0.5f + filter.offset.x,
                    static_cast<float>(path.pixel.y) + 0.5f + filter.offset.y};
         // Nothing moves, so nobody needs the time.
@@ -93,6 +111,8 @@ bool Flight::start_next(Path& path) {
         auto camera_ray = world_.camera->ray(at);
         path.context.emplace(*world_.scene, stream, lambda, path.arena, counts.rays,
                              paths_.size() > 1 ? &queue_ : nullptr, path.number);
+        path.surface = {};
+        if (world_.film->wants_surfaces()) path.context->surface = &path.surface;
         if (camera_ray) {
             path.camera_weight = camera_ray->weight;
             path.task.emplace(world_.integrator->radiance(camera_ray->ray, *path.context));
@@ -124,7 +144,12 @@ void Flight::settle(Path& path) {
 
 void Flight::finish(Path& path, Spectrum radiance) {
     Result& result = results_[path.order % ring_size];
-    result = {path.pixel, path.sample, radiance, path.context->lambda, path.filter_weight, true};
+    VisibleSurface& surface = path.surface;
+    if (surface.is_there) {
+        surface.dpdx = movement(*world_.camera, path.camera_sample, {1, 0}, surface);
+        surface.dpdy = movement(*world_.camera, path.camera_sample, {0, 1}, surface);
+    }
+    result = {path.pixel, path.sample, radiance, path.context->lambda, path.filter_weight, surface, true};
     path.task.reset();
     if (path.order == added_) add_finished();
 }
@@ -134,6 +159,7 @@ void Flight::add_finished() {
         Result& r = results_[added_ % ring_size];
         r.is_done = false;
         if (r.radiance.is_finite()) {
+            if (r.surface.is_there) world_.film->add_surface(r.pixel, r.surface, r.lambda);
             world_.film->add(r.pixel, r.radiance, r.lambda, r.weight);
             continue;
         }

@@ -87,6 +87,16 @@ float exposure_time(const CameraNode& camera) {
     return number("shutterclose", 1) - number("shutteropen", 0);
 }
 
+// What the camera sees first is known of integrators that look from it.
+void check_surfaces(const World& world, const Node& integrator, const Node& film, BuildContext& context) {
+    if (world.integrator && world.film && world.film->wants_surfaces() &&
+        !world.integrator->follows_camera_rays())
+        context.messages.add_error(
+            film.place, fmt::format("film \"{}\" needs camera rays that are followed one by one, which "
+                                    "integrator \"{}\" does not do; use film \"rgb\", or integrator \"path\"",
+                                    film.type, integrator.type));
+}
+
 // Light that is brought to the camera needs one that can say where on the film it arrives, and a film that
 // takes it.
 void check_light_tracing(const World& world, const Node& integrator, const CameraNode& camera,
@@ -218,6 +228,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     const CameraNode* camera = find_camera(description, settings, messages);
     if (!camera) camera = &default_camera;
     context.exposure_time = exposure_time(*camera);
+    context.world_from_camera = Transform(camera->world_from_camera.start);
     world->film = make_film(description, settings, context);
     if (world->film) {
         context.film_resolution = world->film->resolution();
@@ -227,6 +238,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     world->filter = filter_kinds().make(with_default(description.filter, "gaussian"), context, "gaussian");
     add_sampler(*world, description, settings, context);
     check_light_tracing(*world, description.integrator, *camera, description.film, context);
+    check_surfaces(*world, description.integrator, description.film, context);
 
     add_scene(*world, description, *camera, choose_accel(description, settings, context), context);
     messages.throw_if_errors();

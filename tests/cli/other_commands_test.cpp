@@ -38,6 +38,17 @@ TEST_F(Commands, InfoTellsWhatIsThere) {
     EXPECT_EQ(alhazen("info none.pbrt").exit_code, 2);
 }
 
+TEST_F(Commands, InfoNamesMedia) {
+    std::ofstream(path("fog.pbrt")) << "WorldBegin\n"
+                                       "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n"
+                                       "MakeNamedMedium \"steam\" \"string type\" \"cloud\"\n";
+    EXPECT_THAT(alhazen("info fog.pbrt").out, HasSubstr("media        2\n    fog "));
+    auto media = nlohmann::json::parse(alhazen("info fog.pbrt --json").out)["media"];
+    ASSERT_EQ(media.size(), 2u);
+    EXPECT_EQ(media[1]["name"], "steam");
+    EXPECT_EQ(media[1]["type"], "cloud");
+}
+
 TEST_F(Commands, ConvertChangesFormatExposureAndCurve) {
     ASSERT_EQ(alhazen("convert a.pfm a.exr").exit_code, 0);
     EXPECT_EQ(read_image(path("a.exr")).rgb(3, 3), Vec3(0.25f));
@@ -55,6 +66,21 @@ TEST_F(Commands, ConvertChangesFormatExposureAndCurve) {
     EXPECT_THAT(alhazen("convert none.png b.png").err, HasSubstr("none.png: no such file"));
     EXPECT_THAT(alhazen("convert scene.pbrt b.png").err, HasSubstr("scene.pbrt: "));
     EXPECT_EQ(alhazen("convert a.pfm b.png --tonemap film").exit_code, 2);
+}
+
+TEST_F(Commands, ConvertTakesALayer) {
+    Image image(4, 3, {"R", "G", "B", "N.X", "N.Y", "N.Z", "u"});
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 4; ++x)
+            for (int c = 0; c < 7; ++c) image.at(x, y, c) = static_cast<float>(c) * 0.125f;
+    write_image(path("layers.exr"), image);
+    ASSERT_EQ(alhazen("convert layers.exr n.pfm --layer N").exit_code, 0);
+    EXPECT_EQ(read_image(path("n.pfm")).rgb(1, 2), Vec3(.375f, .5f, .625f));
+    ASSERT_EQ(alhazen("convert layers.exr u.pfm --layer u").exit_code, 0);
+    EXPECT_EQ(read_image(path("u.pfm")).rgb(1, 2), Vec3(.75f));
+    Outcome o = alhazen("convert layers.exr z.pfm --layer Albedo");
+    EXPECT_EQ(o.exit_code, 2);
+    EXPECT_THAT(o.err, HasSubstr("layers.exr: there is no layer \"Albedo\"; the channels are "));
 }
 
 TEST_F(Commands, CompareShowsOneSceneInSeveralWays) {

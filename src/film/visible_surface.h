@@ -1,0 +1,19 @@
+/// What a camera ray sees first, for films that keep more than light.
+#pragma once
+
+#include "base/vec.h"
+#include "color/spectrum.h"
+
+namespace alhazen {
+
+/// World space.
+struct VisibleSurface {
+    bool is_there = false; ///< where not, the rest means nothing
+    Vec3 p;
+    Vec3 n, ns; ///< geometric and shading normal, towards the camera
+    Vec2 uv;
+    Vec3 dpdx, dpdy; ///< how the point moves over the surface from pixel to pixel, to the right and down
+    Spectrum albedo; ///< share of light reflected, into all directions, in the path's wavelengths
+};
+
+} // namespace alhazen
