@@ -33,6 +33,8 @@ struct CameraConnection {
 struct Camera {
     static constexpr std::string_view family_name = "camera";
     virtual ~Camera() = default;
+    /// Whether rays depend on CameraSample::time in more than their own time.
+    virtual bool moves() const { return false; }
     /// Whether rays depend on CameraSample::lens.
     virtual bool has_lens() const { return false; }
     /// nullopt where the film receives no light.

@@ -38,6 +38,7 @@ struct BuildContext {
     float film_diagonal = 0.035f;
     /// Shutter open to close: film sensors (seconds).
     float exposure_time = 1;
+    float shutter_open = 0;           ///< when (seconds): what moves and is asked for its place once
     Transform world_from_camera = {}; ///< films
 
     /// An existing path for a file a scene names: absolute, or relative to base_folder.

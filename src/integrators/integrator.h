@@ -40,6 +40,8 @@ struct Integrator {
 
     /// True for models that are defined in linear RGB.
     virtual bool works_in_rgb() const { return false; }
+    /// False where all that moves is shown as it is when the shutter opens.
+    virtual bool sees_motion() const { return true; }
     /// True when participating media are seen; for others they are not there.
     virtual bool sees_media() const { return false; }
     /// True when a picture of one sample a pixel goes through the pixels' centres.

@@ -113,6 +113,7 @@ struct Raster final : Integrator {
     }
 
     bool follows_camera_rays() const override { return false; }
+    bool sees_motion() const override { return false; }
     std::unique_ptr<PictureWork> whole_picture(const PictureOrder& picture) const override {
         if (!picture.camera.projection()) return nullptr;
         return std::make_unique<RasterWork>(picture, *lights_, *shading_);

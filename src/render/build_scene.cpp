@@ -26,6 +26,7 @@ class SceneBuilder {
         for (std::size_t i = 0; i < objects_.size(); ++i) object(i);
         std::unique_ptr<Object> root = make_object(description_.world);
         if (context_.messages.error_count() > 0) return nullptr;
+        for (auto& object : moving_) objects_.push_back(std::move(object));
         objects_.push_back(std::move(root));
         return std::make_unique<Scene>(std::move(objects_), std::move(lights_));
     }
@@ -40,8 +41,7 @@ class SceneBuilder {
 
     Transform placement(const Motion& motion, const Place& place) {
         if (motion.is_animated())
-            context_.messages.add_unsupported(place,
-                                              "moving shapes, lights and cameras are not supported yet",
+            context_.messages.add_unsupported(place, "lights that move are not supported yet",
                                               "the place at the start of the motion");
         if (!motion.start.inverse())
             context_.messages.add_error(place, "the transformation here is not invertible");
@@ -84,12 +84,56 @@ class SceneBuilder {
             }
             PlacedObject placed;
             placed.object = object(found->second);
-            placed.world_from_object = placement(instance.world_from_instance, instance.place);
-            placed.object_from_world = placed.world_from_object.inverse();
-            placed.number = instance_count_++;
+            place_instance(placed, instance.world_from_instance, instance.place);
             if (placed.object && !placed.object->bounds().empty()) instances.push_back(placed);
         }
+        move_shapes(node, instances);
         return std::make_unique<Object>(make_shapes(node), std::move(instances), accel_);
+    }
+
+    void place_instance(PlacedObject& placed, const Motion& motion, const Place& place) {
+        placed.number = instance_count_++;
+        if (!motion.is_animated()) {
+            placed.world_from_object = placement(motion, place);
+        } else if (auto movement = MovingTransform::make(motion.start, motion.end, description_.time_start,
+                                                         description_.time_end)) {
+            placed.world_from_object = movement->at(context_.shutter_open);
+            placed.movement = std::make_shared<const MovingTransform>(*movement);
+        } else {
+            context_.messages.add_error(place, std::string(no_movement));
+        }
+        placed.object_from_world = placed.world_from_object.inverse();
+    }
+
+    // Takes the node's shapes that move out of it, into objects that are placed by their motion: those that
+    // follow each other and move in the same way into one.
+    void move_shapes(ObjectNode& node, std::vector<PlacedObject>& instances) {
+        auto moves = [](const ShapeNode& shape) { return shape.world_from_object.is_animated(); };
+        auto& shapes = node.shapes;
+        for (auto first = std::find_if(shapes.begin(), shapes.end(), moves); first != shapes.end();
+             first = std::find_if(first, shapes.end(), moves)) {
+            const Motion motion = first->world_from_object;
+            const auto last = std::find_if(first, shapes.end(), [&](const ShapeNode& shape) {
+                return !(shape.world_from_object == motion);
+            });
+            ObjectNode inner;
+            inner.place = first->node.place;
+            inner.shapes.assign(std::make_move_iterator(first), std::make_move_iterator(last));
+            first = shapes.erase(first, last);
+            for (ShapeNode& shape : inner.shapes) {
+                shape.world_from_object = {};
+                if (shape.area_light < 0) continue;
+                context_.messages.add_unsupported(shape.node.place,
+                                                  "area lights that move are not supported yet",
+                                                  "the shape, which is dark");
+                shape.area_light = -1;
+            }
+            PlacedObject placed;
+            moving_.push_back(make_object(inner));
+            placed.object = moving_.back().get();
+            place_instance(placed, motion, inner.place);
+            if (!placed.object->bounds().empty()) instances.push_back(placed);
+        }
     }
 
     // Shapes load in parallel; messages and lights keep the order of the file.
@@ -164,7 +208,8 @@ class SceneBuilder {
     BuildContext& context_;
     std::vector<std::unique_ptr<Light>> lights_;
     std::vector<std::unique_ptr<Object>> objects_;
-    std::vector<char> is_open_; ///< objects that are being made
+    std::vector<std::unique_ptr<Object>> moving_; ///< of shapes that move
+    std::vector<char> is_open_;                   ///< objects that are being made
     std::unordered_map<std::string, std::size_t> index_;
     std::uint32_t instance_count_ = 0;
 };

@@ -10,6 +10,11 @@
 
 namespace alhazen {
 
+/// What is said of a Motion that MovingTransform refuses.
+inline constexpr std::string_view no_movement = "there is no way from the transformation at the start of the "
+                                                "motion to that at its end: each must be affine and "
+                                                "invertible, and both must mirror, or neither";
+
 /// context.textures and .materials must be set; materials and media are those of description. Every
 /// object gets a structure as accel says. Returns nullptr when errors were added to context.messages.
 std::unique_ptr<Scene> build_scene(SceneDescription& description, const MaterialSet& materials,

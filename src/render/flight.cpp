@@ -102,8 +102,10 @@ bool Flight::start_next(Path& path) {
         at = {};
         at.film = {static_cast<float>(path.pixel.x) + 0.5f + filter.offset.x,
                    static_cast<float>(path.pixel.y) + 0.5f + filter.offset.y};
-        // Nothing moves, so nobody needs the time.
-        stream.skip(1);
+        if (world_.scene->moves() || world_.camera->moves())
+            at.time = stream.next1();
+        else
+            stream.skip(1);
         if (world_.camera->has_lens())
             at.lens = stream.next2();
         else

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/threads.h"
+#include "cameras/moving_camera.h"
 #include "formats/grids.h"
 #include "formats/ply.h"
 #include "render/accelerator.h"
@@ -69,22 +70,32 @@ const CameraNode* find_camera(const SceneDescription& description, const RenderS
     return nullptr;
 }
 
-std::unique_ptr<Camera> make_camera(const CameraNode& node, BuildContext& context) {
-    if (node.world_from_camera.is_animated())
-        context.messages.add_unsupported(node.node.place, "moving cameras are not supported yet",
-                                         "the place at the start of the motion");
-    context.world_from_node = Transform(node.world_from_camera.start);
-    return camera_kinds().make(node.node, context, "perspective");
+std::unique_ptr<Camera> make_camera(const CameraNode& node, const SceneDescription& scene,
+                                    BuildContext& context) {
+    const Motion& motion = node.world_from_camera;
+    if (!motion.is_animated()) {
+        context.world_from_node = Transform(motion.start);
+        return camera_kinds().make(node.node, context, "perspective");
+    }
+    auto movement = MovingTransform::make(motion.start, motion.end, scene.time_start, scene.time_end);
+    if (!movement) {
+        context.messages.add_error(node.node.place, std::string(no_movement));
+        return nullptr;
+    }
+    context.world_from_node = {};
+    auto camera = camera_kinds().make(node.node, context, "perspective");
+    return camera ? make_moving_camera(std::move(camera), *movement) : nullptr;
 }
 
-// The shutter's opening time, which sensors need before the film and camera are built.
-float exposure_time(const CameraNode& camera) {
+// The shutter's times, which others need before the camera is built.
+void read_shutter(const CameraNode& camera, BuildContext& context) {
     auto number = [&](std::string_view name, float otherwise) {
         const Parameter* p = camera.node.find(name);
         auto* v = p ? std::get_if<std::vector<float>>(&p->values) : nullptr;
         return v && v->size() == 1 ? v->front() : otherwise;
     };
-    return number("shutterclose", 1) - number("shutteropen", 0);
+    context.shutter_open = number("shutteropen", 0);
+    context.exposure_time = number("shutterclose", 1) - context.shutter_open;
 }
 
 // What the camera sees first is known of integrators that look from it.
@@ -193,6 +204,12 @@ void add_scene(World& world, SceneDescription& description, const CameraNode& ca
     world.scene->set_medium_at_camera(world.media.find(camera.medium, camera.node.place, context.messages));
     if (accel.distance_field > 0)
         approximate(*world.scene, accel.distance_field, description.accelerator.place, context.messages);
+    const bool is_still = world.integrator && !world.integrator->sees_motion();
+    if (world.scene->moves() && (is_still || accel.distance_field > 0))
+        context.messages.add_warning(is_still ? description.integrator.place : description.accelerator.place,
+                                     "what moves is shown as it is when the shutter opens; with another "
+                                     "integrator, and without the global "
+                                     "distance field, the picture shows the motion");
     if (world.scene->has_media() && world.integrator && !world.integrator->sees_media())
         context.messages.add_warning(
             description.integrator.place,
@@ -227,14 +244,14 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     default_camera.node.type = "perspective";
     const CameraNode* camera = find_camera(description, settings, messages);
     if (!camera) camera = &default_camera;
-    context.exposure_time = exposure_time(*camera);
+    read_shutter(*camera, context);
     context.world_from_camera = Transform(camera->world_from_camera.start);
     world->film = make_film(description, settings, context);
     if (world->film) {
         context.film_resolution = world->film->resolution();
         context.film_diagonal = world->film->diagonal();
     }
-    world->camera = make_camera(*camera, context);
+    world->camera = make_camera(*camera, description, context);
     world->filter = filter_kinds().make(with_default(description.filter, "gaussian"), context, "gaussian");
     add_sampler(*world, description, settings, context);
     check_light_tracing(*world, description.integrator, *camera, description.film, context);

@@ -25,6 +25,12 @@ Vec3 transform_change(const Transform& t, Vec3 n, Vec3 change) {
     return d - unit * dot(unit, d);
 }
 
+// Calls use with where the instance is at the time.
+template <class Use>
+auto with_place(const PlacedObject& instance, float time, Use use) {
+    return instance.movement ? use(instance.movement->at(time)) : use(instance.world_from_object);
+}
+
 // Turns the hit's normal by the relief of the material that is in effect there.
 void apply_relief(const Shape& shape, const Found& found, const Hit& local, Hit& hit) {
     hit.material = hit.material->choose(hit);
@@ -32,9 +38,10 @@ void apply_relief(const Shape& shape, const Found& found, const Hit& local, Hit&
     NormalChange change = shape.normal_change(local);
     Vec3 n = local.ns;
     for (std::size_t i = found.depth; i-- > 0;) {
-        const Transform& t = found.instances[i]->world_from_object;
-        change = {transform_change(t, n, change.dndu), transform_change(t, n, change.dndv)};
-        n = normalize(t.normal(n));
+        with_place(*found.instances[i], found.ray.time, [&](const Transform& t) {
+            change = {transform_change(t, n, change.dndu), transform_change(t, n, change.dndv)};
+            n = normalize(t.normal(n));
+        });
     }
     if (dot(n, hit.ns) < 0) change = {-change.dndu, -change.dndv};
     hit.material->relief.apply(hit, change);
@@ -43,8 +50,13 @@ void apply_relief(const Shape& shape, const Found& found, const Hit& local, Hit&
 } // namespace
 
 Ray ray_into(const PlacedObject& instance, const Ray& ray, float& shift) {
-    Ray local = instance.object_from_world.ray(ray);
-    Vec3 error = instance.object_from_world.point_error(ray.o, Vec3{});
+    if (instance.movement) return ray_into(instance.movement->at(ray.time).inverse(), ray, shift);
+    return ray_into(instance.object_from_world, ray, shift);
+}
+
+Ray ray_into(const Transform& object_from_world, const Ray& ray, float& shift) {
+    Ray local = object_from_world.ray(ray);
+    Vec3 error = object_from_world.point_error(ray.o, Vec3{});
     float len2 = length_squared(local.d);
     shift = len2 > 0 ? dot(abs(local.d), error) / len2 : 0;
     local.o += local.d * shift;
@@ -81,6 +93,12 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
             }
         },
         [](Bounds3& box, const Bounds3& part) { box.extend(part); });
+}
+
+bool Object::moves() const {
+    return std::any_of(instances_.begin(), instances_.end(), [](const PlacedObject& instance) {
+        return instance.movement || instance.object->moves();
+    });
 }
 
 void Object::rebuild(const AccelChoice& accel) {
@@ -128,7 +146,9 @@ Bounds3 Object::box_of(const Primitive& p) const {
     if (p.shape != instance_mark) return shapes_[p.shape].shape->bounds(p.primitive);
     const PlacedObject& instance = instances_[p.primitive];
     if (instance.object->bounds().empty()) return {};
-    Bounds3 box = instance.world_from_object.bounds(instance.object->bounds());
+    const Bounds3& inside = instance.object->bounds();
+    Bounds3 box =
+        instance.movement ? instance.movement->bounds(inside) : instance.world_from_object.bounds(inside);
     // Rays are transformed into the instance with a few roundings of their coordinates there, which seen from
     // here are a few of the box's.
     Vec3 pad = (max(abs(box.lo), abs(box.hi)) + box.diagonal()) * (16 * 0x1p-24f);
@@ -315,7 +335,8 @@ Hit Object::surface(const Found& found) {
     hit.material = placed.material;
     hit.media = placed.media.is_border() ? &placed.media : nullptr;
     hit.area_light = placed.lights.empty() ? nullptr : placed.lights[primitive.primitive];
-    for (std::size_t i = found.depth; i-- > 0;) transform_hit(found.instances[i]->world_from_object, hit);
+    for (std::size_t i = found.depth; i-- > 0;)
+        with_place(*found.instances[i], found.ray.time, [&](const Transform& t) { transform_hit(t, hit); });
     if (found.depth > 0) hit.instance = found.instances[found.depth - 1]->number + 1;
     if (leaf.has_relief) apply_relief(*placed.shape, found, local, hit);
     return hit;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "accel/accel.h"
+#include "base/moving_transform.h"
 #include "materials/material.h"
 #include "media/medium.h"
 #include "scene/ball_list.h"
@@ -27,8 +28,10 @@ struct PlacedShape {
 /// An object placed in another.
 struct PlacedObject {
     const Object* object = nullptr;
+    /// Of what moves, where it is when the shutter opens.
     Transform world_from_object, object_from_world;
-    std::uint32_t number = 0; ///< of the instance in the whole scene
+    std::shared_ptr<const MovingTransform> movement; ///< nullptr: it stands still
+    std::uint32_t number = 0;                        ///< of the instance in the whole scene
 };
 
 /// A hit, and through which instances the ray got there.
@@ -47,6 +50,7 @@ struct Found {
 /// transforming it, so that it does not meet the surface it was moved off in world space; shift is by how
 /// much of t.
 Ray ray_into(const PlacedObject& instance, const Ray& ray, float& shift);
+Ray ray_into(const Transform& object_from_world, const Ray& ray, float& shift);
 
 class Object final : public Primitives {
   public:
@@ -95,6 +99,8 @@ class Object final : public Primitives {
     /// Builds another structure over the same things; for measurements. Nobody may be asking meanwhile.
     void rebuild(const AccelChoice& accel);
     std::size_t primitive_count() const { return primitives_.size(); }
+    /// Whether anything in it does.
+    bool moves() const;
     /// How deep instances are nested to get out of the innermost: 1 without instances.
     std::size_t height() const { return height_; }
 

@@ -4,7 +4,7 @@ namespace alhazen {
 
 Scene::Scene(std::vector<std::unique_ptr<Object>> objects, std::vector<std::unique_ptr<Light>> lights)
     : owned_lights_(std::move(lights)), objects_(std::move(objects)), root_(objects_.back().get()),
-      bounds_(root_->bounds()) {
+      bounds_(root_->bounds()), moves_(root_->moves()) {
     for (const auto& light : owned_lights_) {
         light->prepare(bounds_);
         lights_.push_back(light.get());

@@ -58,6 +58,8 @@ class Scene {
     /// nullptr when every ray is traced exactly.
     const DistanceScene* approximation() const { return approximation_.get(); }
 
+    /// Whether anything in it does, so that hits depend on rays' times.
+    bool moves() const { return moves_; }
     /// What is in the scene itself, instances among it.
     const Object& root() const { return *root_; }
     /// Builds another structure for each object; for measurements. Nobody may be asking meanwhile.
@@ -85,6 +87,7 @@ class Scene {
     Bounds3 bounds_;
     const Medium* medium_at_camera_ = nullptr;
     bool has_media_ = false;
+    bool moves_ = false;
 };
 
 } // namespace alhazen

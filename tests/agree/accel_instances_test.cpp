@@ -44,6 +44,13 @@ struct World {
             placed.world_from_object = Transform(m);
             placed.object_from_world = placed.world_from_object.inverse();
             placed.number = i;
+            // Some move, and turn and stretch on the way.
+            if (i >= 4 && i < 8)
+                placed.movement = std::make_shared<const MovingTransform>(
+                    *MovingTransform::make(m,
+                                           Matrix4::translate({3 * number(), number(), 0}) *
+                                               Matrix4::rotate(150 * number(), {1, 2, 0}) * m,
+                                           0.25f, 1.5f));
             places.push_back(placed);
         }
         root = std::make_unique<Object>(shapes(6), std::move(places), accel);
@@ -54,7 +61,8 @@ struct World {
         Ray rest = ray;
         rest.tmax = nearest_in(*root, rest);
         for (const PlacedObject& placed : root->instances()) {
-            Ray local = placed.object_from_world.ray(rest);
+            Ray local = placed.movement ? placed.movement->at(ray.time).inverse_ray(rest)
+                                        : placed.object_from_world.ray(rest);
             local.tmax = rest.tmax;
             rest.tmax = nearest_in(*placed.object, local);
         }
@@ -76,7 +84,10 @@ std::vector<Ray> rays_through(const Object& root, int count) {
     Rng rng(2);
     Sphere3 ball = bounding_sphere(root.bounds());
     std::vector<Ray> rays;
-    for (int i = 0; i < count; ++i) rays.push_back(random_line(ball, rng));
+    for (int i = 0; i < count; ++i) {
+        rays.push_back(random_line(ball, rng));
+        rays.back().time = 2 * rng.uniform();
+    }
     return rays;
 }
 
