@@ -105,6 +105,22 @@ double distance_to_strand(const Case& c, Vec3d p) {
     return std::sqrt(least);
 }
 
+// Of a file's triangles and then patches, or of a mesh of patches.
+double distance_to_face(const Case& c, const Hit& hit) {
+    MeshData mesh = shape_cases::house();
+    if (const Parameter* given = c.node.find("P"))
+        mesh.P = std::get<std::vector<Vec3>>(given->values), mesh.indices = {},
+        mesh.quad_indices = {0, 1, 2, 3};
+    if (const Parameter* given = c.node.find("indices"))
+        mesh.quad_indices = std::get<std::vector<int>>(given->values);
+    const std::size_t n = mesh.triangle_count(), i = hit.primitive;
+    const int* corners = i < n ? &mesh.indices[3 * i] : &mesh.quad_indices[4 * (i - n)];
+    positions_to_world(mesh.P, c.world_from_object);
+    auto at = [&](int k) { return Vec3d(mesh.P[static_cast<std::size_t>(corners[k])]); };
+    if (i < n) return std::abs(dot(normalize(cross(at(1) - at(0), at(2) - at(0))), Vec3d(hit.p) - at(0)));
+    return distance_to_patch({at(0), at(1), at(2), at(3)}, Vec3d(hit.p), Vec3d(hit.ng));
+}
+
 // How far p is from the true surface along its normal, in double precision, from the equations.
 double distance_to_surface(const Case& c, const Hit& hit) {
     Vec3d p(hit.p);
@@ -114,20 +130,7 @@ double distance_to_surface(const Case& c, const Hit& hit) {
     }
     // Hits of a strand are within it; what they may be off by is its width.
     if (c.kind == "curve") return distance_to_strand(c, p);
-    if (c.kind == "bilinearmesh") {
-        auto positions = std::get<std::vector<Vec3>>(c.node.find("P")->values);
-        positions_to_world(positions, c.world_from_object);
-        const Parameter* indices = c.node.find("indices");
-        std::array<Vec3d, 4> corner;
-        for (std::size_t i = 0; i < 4; ++i) {
-            std::size_t k = i;
-            if (indices)
-                k = static_cast<std::size_t>(
-                    std::get<std::vector<int>>(indices->values)[std::size_t{4} * hit.primitive + i]);
-            corner[i] = Vec3d(positions[k]);
-        }
-        return distance_to_patch({corner[0], corner[1], corner[2], corner[3]}, p, Vec3d(hit.ng));
-    }
+    if (c.kind == "bilinearmesh" || c.kind == "plymesh") return distance_to_face(c, hit);
     Vec3d q = c.world_from_object.inverse_point(p), n{0, 0, 1};
     if (is_projected(c)) return distance_to_field(c, q);
     double radius = float_parameter(c.node, "radius", 1),

@@ -150,14 +150,43 @@ TEST(PlyMesh, ComesThroughTheReader) {
         return data;
     };
     auto mesh = make("plymesh", {filename}, making);
-    ASSERT_EQ(mesh->primitive_count(), 2u);
-    EXPECT_FLOAT_EQ(mesh->area(0) + mesh->area(1), 1);
+    ASSERT_EQ(mesh->primitive_count(), 1u);
+    EXPECT_FLOAT_EQ(mesh->area(0), 1);
     data.P[3].y = nan;
     EXPECT_THAT(errors_of("plymesh", {filename}, making),
                 HasSubstr("mesh file \"a.ply\": the 4th value of \"P\" is (1, nan, 0); it must be finite"));
     EXPECT_THAT(errors_of("plymesh", {}), HasSubstr("filename"));
     data = {};
     EXPECT_THAT(errors_of("plymesh", {filename}, making), HasSubstr("there are no vertices"));
+}
+
+TEST(PlyMesh, TrianglesAndTwistedQuadrilateralsInOneShape) {
+    MeshData data;
+    data.P = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}, {2, 0, 0}, {9, 9, 9}};
+    data.quad_indices = {0, 1, 2, 3};
+    data.indices = {1, 4, 3};
+    data.uv = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}, {9, 9}};
+    Making making;
+    making.reader = [&](const std::filesystem::path&) { return data; };
+    auto mesh = make("plymesh", {make_string("filename", "a.ply"), make_float("alpha", 0.5f)}, making);
+    ASSERT_EQ(mesh->primitive_count(), 2u);
+    EXPECT_EQ(mesh->triangles(), nullptr);
+    EXPECT_EQ(mesh->alpha.constant(), 0.5f);
+    // Where the quadrilateral is crossed: z = x y.
+    Ray down{{0.5f, 0.25f, 2}, {0, 0, -1}};
+    Intersection met;
+    EXPECT_FALSE(mesh->intersect(down, 0, met));
+    ASSERT_TRUE(mesh->intersect(down, 1, met));
+    Hit h = mesh->surface(down, 1, met);
+    EXPECT_NEAR(h.p.z, 0.125f, 1e-6f);
+    EXPECT_NEAR(h.uv.x, 0.5f, 1e-6f);
+    EXPECT_NEAR(h.uv.y, 0.25f, 1e-6f);
+    EXPECT_EQ(h.primitive, 1u);
+    // The triangle, as its own mesh.
+    data.quad_indices = {};
+    auto triangle = make("plymesh", {make_string("filename", "a.ply")}, making);
+    ASSERT_NE(triangle->triangles(), nullptr);
+    EXPECT_EQ(triangle->area(0), mesh->area(0));
 }
 
 TEST(PlyMesh, LenientLeavesOddFacesOut) {
