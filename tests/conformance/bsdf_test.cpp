@@ -61,10 +61,10 @@ void for_each_case(Test test) {
             }
 }
 
-// Hair's model is not symmetric: its importance is the radiance of the way back, and its normal, which
-// belongs to the curve's ribbon, has no part in it.
+// Hair's model and measurements are not symmetric: their importance is the radiance of the way back. (Hair's
+// normal, which belongs to the curve's ribbon, has no part in it.)
 bool is_symmetric(const BsdfCase& c) {
-    return c.kind != "hair";
+    return c.kind != "hair" && c.kind != "measured";
 }
 
 bool is_specular(const BsdfSample& s) {

@@ -1,10 +1,13 @@
 /// Every registered material's examples as BSDFs, for tests that hold for all of them.
 #pragma once
 
+#include <unistd.h>
+
 #include <string>
 #include <vector>
 
 #include "materials/material_set.h"
+#include "tests/support/measured_file.h"
 #include "textures/texture_set.h"
 
 namespace alhazen::testing_support {
@@ -23,10 +26,15 @@ struct BsdfCase {
 class BsdfCases {
   public:
     explicit BsdfCases(ColorMode mode = ColorMode::spectral) {
-        BuildContext context{messages_, mode};
+        // Programs of several tests may run at once.
+        const auto folder =
+            std::filesystem::temp_directory_path() / ("alhazen-bsdf-cases-" + std::to_string(getpid()));
+        write_measured_examples(folder);
+        BuildContext context{messages_, mode, folder};
         textures_.build({}, context);
         for (const auto& kind : material_kinds().all())
             for (const Example& example : kind.doc().examples) add(kind.name, example, context);
+        std::filesystem::remove_all(folder);
     }
     const std::vector<BsdfCase>& list() const { return cases_; }
     const Messages& messages() const { return messages_; }
