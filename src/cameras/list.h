@@ -2,3 +2,4 @@
 KIND(perspective)
 KIND(orthographic)
 KIND(spherical)
+KIND(realistic)

@@ -104,6 +104,7 @@ TEST(CameraConnections, AreTheCamerasOwnRays) {
     int receiving = 0;
     for (const Matrix4& world : {Matrix4{}, stretched}) {
         auto prepare = [&](BuildContext& context) {
+            context.base_folder = ALHAZEN_SOURCE_DIR "/scenes";
             context.film_resolution = resolution;
             context.world_from_node = Transform(world);
         };
