@@ -17,7 +17,7 @@ using testing_support::messages_of;
 TEST(Samplers, CountsAreAsDeclared) {
     EXPECT_EQ(make_member(sampler_kinds(), "independent", {})->samples_per_pixel(), 4);
     EXPECT_EQ(make_member(sampler_kinds(), "stratified", {})->samples_per_pixel(), 16);
-    for (const char* kind : {"halton", "sobol", "paddedsobol", "zsobol"}) {
+    for (const char* kind : {"halton", "sobol", "paddedsobol", "zsobol", "pmj02bn"}) {
         EXPECT_EQ(make_member(sampler_kinds(), kind, {})->samples_per_pixel(), 16);
         EXPECT_EQ(make_member(sampler_kinds(), kind, {make_integer("pixelsamples", 64)})->samples_per_pixel(),
                   64);
@@ -50,7 +50,7 @@ TEST(Samplers, LargeFilmsAndCountsStayInRange) {
 
 // The scene's count may be replaced, so the advice is in the reference and not in a warning.
 TEST(Samplers, AnyCountIsTakenWithoutAWarning) {
-    for (const char* kind : {"sobol", "paddedsobol", "zsobol", "halton"})
+    for (const char* kind : {"sobol", "paddedsobol", "zsobol", "halton", "pmj02bn"})
         EXPECT_THAT(messages_of(sampler_kinds(), kind, {make_integer("pixelsamples", 100)}), IsEmpty());
 }
 
@@ -61,6 +61,8 @@ TEST(Samplers, BadParametersAreErrors) {
                 ElementsAre(HasSubstr("0")));
     EXPECT_THAT(messages_of(sampler_kinds(), "stratified", {make_integer("xsamples", -4)}),
                 ElementsAre(HasSubstr("-4")));
+    EXPECT_THAT(messages_of(sampler_kinds(), "pmj02bn", {make_integer("pixelsamples", 65537)}),
+                ElementsAre(HasSubstr("65537")));
     EXPECT_THAT(messages_of(sampler_kinds(), "zsobl", {}), ElementsAre(HasSubstr("zsobol")));
 }
 
