@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/frame.h"
+#include "base/pixel_cone.h"
 #include "base/ray.h"
 
 namespace alhazen {
@@ -32,6 +33,7 @@ struct Hit {
     const Material* material = nullptr;
     const Light* area_light = nullptr;
     const MediumInterface* media = nullptr; ///< where the surface is a border between media
+    const PixelCone* cone = nullptr;        ///< what textures blur over; nullptr: nothing
 
     /// z = ns, x along dpdu: the frame BSDFs live in.
     Frame shading_frame() const { return Frame::from_z_and_tangent(ns, dpdu); }

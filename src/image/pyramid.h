@@ -118,6 +118,27 @@ class Pyramid {
         return std::min(std::log2(texels), top);
     }
 
+    /// Over an ellipse with axes a and b (units of the image's sides), by a Gaussian that ends at its rim
+    /// (Greene and Heckbert 1986; Heckbert 1989, section 3.5): between the two levels on which the short axis
+    /// is one to two texels. An ellipse more than max_anisotropy times as long as it is wide is made wider.
+    template <class F>
+    auto ewa(Vec2 uv, Vec2 a, Vec2 b, float max_anisotropy, F evaluate) const {
+        if (length_squared(a) < length_squared(b)) std::swap(a, b);
+        float longer = length(a), shorter = length(b);
+        if (shorter * max_anisotropy < longer && shorter > 0) {
+            const float wider = longer / (shorter * max_anisotropy);
+            b *= wider;
+            shorter *= wider;
+        }
+        if (!(shorter > 0) || !std::isfinite(longer)) return bilinear(0, uv, evaluate);
+        const float l = continuous_level(shorter);
+        const int lower = static_cast<int>(l);
+        if (lower + 1 >= levels()) return bilinear(levels() - 1, uv, evaluate);
+        const float t = l - static_cast<float>(lower);
+        auto fine = over_ellipse(lower, uv, a, b, evaluate);
+        return t == 0 ? fine : fine * (1 - t) + over_ellipse(lower + 1, uv, a, b, evaluate) * t;
+    }
+
     /// The pyramid of f(texel).
     template <class F>
     auto map(F f) const {
@@ -133,6 +154,38 @@ class Pyramid {
     }
 
   private:
+    template <class F>
+    auto over_ellipse(int level, Vec2 uv, Vec2 a, Vec2 b, F evaluate) const {
+        using R = std::decay_t<decltype(evaluate(std::declval<const T&>()))>;
+        const Level& l = this->level(level);
+        const Vec2 scale{static_cast<float>(l.size.x), static_cast<float>(l.size.y)};
+        const Vec2 center = uv * scale - Vec2(0.5f, 0.5f);
+        a = a * scale;
+        b = b * scale;
+        // A x^2 + B x y + C y^2 < F, a texel wider all round so that it is never between texels.
+        float A = sqr(a.y) + sqr(b.y) + 1, B = -2 * (a.x * a.y + b.x * b.y), C = sqr(a.x) + sqr(b.x) + 1;
+        const float inv_f = 1 / (A * C - sqr(B) / 4);
+        A *= inv_f;
+        B *= inv_f;
+        C *= inv_f;
+        const float determinant = 4 * A * C - sqr(B);
+        const float rx = 2 * std::sqrt(C / determinant), ry = 2 * std::sqrt(A / determinant);
+        R sum{};
+        float weights = 0;
+        for (int y = static_cast<int>(std::ceil(center.y - ry));
+             y <= static_cast<int>(std::floor(center.y + ry)); ++y)
+            for (int x = static_cast<int>(std::ceil(center.x - rx));
+                 x <= static_cast<int>(std::floor(center.x + rx)); ++x) {
+                const float dx = static_cast<float>(x) - center.x, dy = static_cast<float>(y) - center.y;
+                const float r2 = A * dx * dx + B * dx * dy + C * dy * dy;
+                if (r2 >= 1) continue;
+                const float weight = std::exp(-2 * r2) - std::exp(-2.0f);
+                weights += weight;
+                if (auto p = wrap_coordinate(mode_, {x, y}, l.size)) sum = sum + evaluate(l.at(*p)) * weight;
+            }
+        return weights > 0 ? sum * (1 / weights) : bilinear(level, uv, evaluate);
+    }
+
     std::vector<Level> levels_;
     WrapMode mode_ = WrapMode::repeat;
 };

@@ -82,7 +82,9 @@ class PathContext {
         std::optional<Hit> await_resume() const {
             if (approximation) return approximation->closest(ray);
             auto hit = path.queue_ ? Scene::surface(path.queue_->found(place)) : path.scene.closest(ray);
-            if (path.surface && hit) path.see(ray, *hit);
+            if (!hit) return hit;
+            hit->cone = path.scene.pixel_cone();
+            if (path.surface) path.see(ray, *hit);
             return hit;
         }
     };

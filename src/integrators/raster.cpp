@@ -27,7 +27,7 @@ namespace {
 class RasterWork final : public PictureWork {
   public:
     RasterWork(const PictureOrder& picture, const LocalLights& lights, const LocalShading& shading)
-        : picture_(picture), shading_(picture.camera, lights, shading) {}
+        : picture_(picture), shading_(picture.camera, lights, shading, picture.scene.pixel_cone()) {}
 
     PictureCounts run(int, const std::function<void(double)>& progress) override {
         const Rect2i pixels = picture_.film.pixels();

@@ -30,7 +30,7 @@ class TileShading::Shader {
   public:
     Shader(const TileShading& owner, const DrawnTile& tile, const Take& take)
         : camera_(owner.camera_), rays_(owner.rays_), lights_(owner.lights_), shading_(owner.shading_),
-          tile_(tile), take_(take) {}
+          cone_(owner.cone_), tile_(tile), take_(take) {}
 
     void shade() {
         for (int y = tile_.pixels().lo.y; y < tile_.pixels().hi.y; ++y)
@@ -114,6 +114,7 @@ class TileShading::Shader {
         const Material* material = hit_.material;
         Wavelengths rgb = Wavelengths::rgb();
         if (!material->is_uniform()) {
+            hit_.cone = cone_;
             arena_.reset();
             passing_.bsdf = material->at(hit_, rgb, arena_);
             passing_.matte = passing_.bsdf ? passing_.bsdf->matte() : std::nullopt;
@@ -159,6 +160,7 @@ class TileShading::Shader {
     const FilmRays& rays_;
     const LocalLights& lights_;
     const LocalShading& shading_;
+    const PixelCone* cone_;
     const DrawnTile& tile_;
     const Take& take_;
 

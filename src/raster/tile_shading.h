@@ -11,9 +11,11 @@ namespace alhazen {
 
 class TileShading {
   public:
-    /// camera has a projection. What is given must outlive this.
-    TileShading(const Camera& camera, const LocalLights& lights, const LocalShading& shading)
-        : camera_(camera), rays_(*camera.projection()), lights_(lights), shading_(shading) {}
+    /// camera has a projection; cone is what textures blur over, if anything. What is given must outlive
+    /// this.
+    TileShading(const Camera& camera, const LocalLights& lights, const LocalShading& shading,
+                const PixelCone* cone)
+        : camera_(camera), rays_(*camera.projection()), lights_(lights), shading_(shading), cone_(cone) {}
 
     /// Takes the light of a pixel, or of so many of its samples.
     using Take = std::function<void(Vec2i pixel, Spectrum L, int samples)>;
@@ -26,6 +28,7 @@ class TileShading {
     FilmRays rays_;
     const LocalLights& lights_;
     const LocalShading& shading_;
+    const PixelCone* cone_;
 };
 
 } // namespace alhazen

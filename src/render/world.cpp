@@ -4,6 +4,7 @@
 
 #include "base/threads.h"
 #include "cameras/moving_camera.h"
+#include "cameras/pixel_cone.h"
 #include "formats/grids.h"
 #include "formats/ply.h"
 #include "render/accelerator.h"
@@ -259,6 +260,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
 
     add_scene(*world, description, *camera, choose_accel(description, settings, context), context);
     messages.throw_if_errors();
+    world->scene->set_pixel_cone(pixel_cone(*world->camera, world->film->resolution(), world->spp));
     world->scene->set_light_chooser(world->integrator->light_sampler());
     world->paths_in_flight =
         settings.paths_in_flight > 0 ? settings.paths_in_flight : default_paths_in_flight(*world->scene);

@@ -71,6 +71,9 @@ class Scene {
         medium_at_camera_ = medium;
         has_media_ = has_media_ || medium;
     }
+    /// What textures blur over where the camera looks at them; empty: nothing.
+    const PixelCone* pixel_cone() const { return pixel_cone_ ? &*pixel_cone_ : nullptr; }
+    void set_pixel_cone(const PixelCone& cone) { pixel_cone_ = cone; }
     /// Whether light may pass through any medium.
     bool has_media() const { return has_media_; }
 
@@ -86,6 +89,7 @@ class Scene {
     std::unique_ptr<DistanceScene> approximation_;
     Bounds3 bounds_;
     const Medium* medium_at_camera_ = nullptr;
+    std::optional<PixelCone> pixel_cone_;
     bool has_media_ = false;
     bool moves_ = false;
 };

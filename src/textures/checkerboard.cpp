@@ -1,5 +1,6 @@
 /// Two textures on the squares of a board, or the cubes of a space-filling one, with unit sides. Squares are
-/// told apart by the parity of the sum of their whole coordinates.
+/// told apart by the parity of the sum of their whole coordinates. Where a pixel covers several squares, they
+/// are blended by a tent around it (Pharr et al. 2023, section 10.4.4).
 #include <fmt/format.h>
 
 #include "textures/mapping.h"
@@ -13,6 +14,21 @@ namespace {
 bool is_odd(float x) {
     float whole = std::floor(x);
     return whole - 2 * std::floor(whole / 2) != 0;
+}
+
+// 1 where floor(x) is even and -1 where it is odd, integrated twice from 0.
+float wave_integral(float x) {
+    const float y = x / 2 - std::floor(x / 2) - 0.5f;
+    return x / 2 + y * (1 - 2 * std::abs(y));
+}
+
+// That wave blurred by a tent of half width r: the second difference of its second integral.
+float blurred_wave(float x, float r) {
+    if (!(r > 0) || std::floor(x - r) == std::floor(x + r)) return is_odd(x) ? -1.0f : 1.0f;
+    if (!(r < 1e4f)) return 0;
+    // Near the origin, where floats are fine.
+    x -= 2 * std::floor(x / 2);
+    return (wave_integral(x + r) - 2 * wave_integral(x) + wave_integral(x - r)) / sqr(r);
 }
 
 template <class Family>
@@ -38,16 +54,23 @@ struct Checkerboard final : TextureNodeOf<Family, Checkerboard<Family>>, Texture
 
     template <class... Lambda>
     TextureValue<Family> value(const TexturePoint& at, const Lambda&... lambda) const {
-        return is_second(at) ? tex2.eval(at, lambda...) : tex1.eval(at, lambda...);
+        const float share = share_of_second(at);
+        if (share == 0) return tex1.eval(at, lambda...);
+        if (share == 1) return tex2.eval(at, lambda...);
+        return tex1.eval(at, lambda...) * (1 - share) + tex2.eval(at, lambda...) * share;
     }
 
-    bool is_second(const TexturePoint& at) const {
+    float share_of_second(const TexturePoint& at) const {
         if (dimension == 3) {
-            Vec3 p = texture_point(at);
-            return is_odd(p.x) ^ is_odd(p.y) ^ is_odd(p.z);
+            const Vec3 p = texture_point(at);
+            return is_odd(p.x) ^ is_odd(p.y) ^ is_odd(p.z) ? 1 : 0;
         }
-        Vec2 st = map(at);
-        return is_odd(st.x) ^ is_odd(st.y);
+        const Vec2 st = map(at);
+        const TextureFootprint covered = footprint(at);
+        constexpr float pixels = 1.5f; // half of the tent's width
+        return (1 - blurred_wave(st.x, pixels * std::max(std::abs(covered.a.x), std::abs(covered.b.x))) *
+                        blurred_wave(st.y, pixels * std::max(std::abs(covered.a.y), std::abs(covered.b.y)))) /
+               2;
     }
 };
 

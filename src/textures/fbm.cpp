@@ -12,7 +12,9 @@ struct FractalNoise final : OctavesTexture<Family, FractalNoise<Family>> {
                 "grey between 0 and 1.");
         FractalNoise::describe_octaves(f);
     }
-    float number(Vec3 p) const { return fractal_noise(p, this->roughness, this->octaves); }
+    float number(Vec3 p, float width) const {
+        return fractal_noise(p, this->roughness, this->octaves, width);
+    }
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 /// Pictures on surfaces. The texture coordinates' origin is the picture's lower left corner, as in pbrt-v4.
-/// Lookups read the finest level whatever the filter: rays do not carry footprints.
+/// What a pixel covers decides how much of a picture is blended (see PixelCone).
 #include <fmt/format.h>
 
 #include "image/encoding.h"
@@ -37,8 +37,10 @@ struct ImageMapFields : TextureMapping {
         f.field("filename", &T::filename, "the image file, relative to the scene file").required();
         f.field("wrap", &T::wrap, "what lies beyond the picture's borders");
         f.field("filter", &T::filter,
-                "how texels are blended; trilinear and ewa are bilinear on the finest level for now");
-        f.field("maxanisotropy", &T::maxanisotropy, "ewa: greatest ratio of the footprint's axes").above(0);
+                "how texels are blended: point takes one and bilinear four, from the level whose texels are "
+                "as large as "
+                "the pixel; trilinear blends two levels, ewa the ellipse that the pixel covers");
+        f.field("maxanisotropy", &T::maxanisotropy, "ewa: greatest ratio of the footprint's axes").in(1, 256);
         f.field(
             "encoding", &T::encoding,
             "how an integer file's values stand for light: \"sRGB\", \"linear\", \"gamma\" and a number, or "
@@ -48,9 +50,14 @@ struct ImageMapFields : TextureMapping {
         T::describe_mapping(f);
     }
 
-    Vec2 image_point(const TexturePoint& at) const {
-        Vec2 st = map(at);
-        return {st.x, 1 - st.y};
+    TexelPlace image_place(const TexturePoint& at) const {
+        const Vec2 st = map(at);
+        const TextureFootprint covered = footprint(at);
+        return {{st.x, 1 - st.y},
+                {covered.a.x, -covered.a.y},
+                {covered.b.x, -covered.b.y},
+                filter,
+                maxanisotropy};
     }
 
     // The parameter's place if it was given.
@@ -100,8 +107,7 @@ struct ImageMap<FloatNode> final : FloatNode, ImageMapFields {
              [&](const ImageSource& source, ImageCache& cache) { texels = cache.numbers(source); });
     }
     float eval(const TexturePoint& at) const override {
-        Vec2 st = image_point(at);
-        float v = filter == TexelFilter::point ? texels->nearest(0, st) : texels->bilinear(0, st);
+        const float v = look_up(*texels, image_place(at), [](float texel) { return texel; });
         return invert ? std::max(0.0f, 1 - scale * v) : scale * v;
     }
     Vec2i image_size() const override { return size; }
@@ -119,7 +125,7 @@ struct ImageMap<SpectrumNode> final : SpectrumNode, ImageMapFields {
         });
     }
     Spectrum eval(const TexturePoint& at, const Wavelengths& lambda) const override {
-        return texels->lookup(image_point(at), filter, lambda);
+        return texels->lookup(image_place(at), lambda);
     }
     Vec2i image_size() const override { return size; }
 };

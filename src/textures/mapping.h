@@ -14,6 +14,16 @@ struct EnumNames<MappingKind> {
     static constexpr std::array names{"uv", "spherical", "cylindrical", "planar"};
 };
 
+/// What a pixel covers in texture coordinates: an ellipse with these axes, each as long as the pixel is wide.
+struct TextureFootprint {
+    Vec2 a, b;
+
+    /// Along one coordinate, at most.
+    float largest_step() const {
+        return std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+    }
+};
+
 /// A base of textures that vary over two coordinates.
 struct TextureMapping {
     MappingKind mapping = MappingKind::uv;
@@ -52,6 +62,13 @@ struct TextureMapping {
         return {uscale * at.uv.x + udelta, vscale * at.uv.y + vdelta};
     }
 
+    /// Zero where it is not known.
+    TextureFootprint footprint(const TexturePoint& at) const {
+        if (!at.hit || !at.hit->cone) return {};
+        const PixelCone::Ellipse ellipse = at.hit->cone->on_surface(at.p, at.ng);
+        return {step(at, ellipse.narrow), step(at, ellipse.wide)};
+    }
+
     /// s: angle from +z over pi; t: angle about z from +x over 2 pi, 0 to 1.
     static Vec2 map_spherical(Vec3 p) {
         float theta = std::atan2(std::hypot(p.x, p.y), p.z);
@@ -60,6 +77,44 @@ struct TextureMapping {
     }
     /// s: angle about z from -x over 2 pi; t: z.
     static Vec2 map_cylindrical(Vec3 p) { return {(pi + std::atan2(p.y, p.x)) * (inv_pi / 2), p.z}; }
+
+  private:
+    /// How the coordinates change when the point moves by d over the surface.
+    Vec2 step(const TexturePoint& at, Vec3 d) const {
+        switch (mapping) {
+        case MappingKind::uv:
+            break;
+        case MappingKind::planar: {
+            const Vec3 moved = texture_from_world.vector(d);
+            return {dot(moved, v1), dot(moved, v2)};
+        }
+        case MappingKind::spherical:
+            return difference(map_spherical, texture_point(at), texture_from_world.vector(d), 1);
+        case MappingKind::cylindrical:
+            return difference(map_cylindrical, texture_point(at), texture_from_world.vector(d), 0);
+        }
+        const Vec2 duv = parameter_step(*at.hit, d);
+        return {uscale * duv.x, vscale * duv.y};
+    }
+    /// By a tenth of the way; one coordinate is an angle, 0 again at 1.
+    template <class Map>
+    static Vec2 difference(Map map, Vec3 p, Vec3 d, int angle) {
+        constexpr float part = 0.1f;
+        Vec2 change = map(p + d * part) - map(p);
+        float& turned = angle == 0 ? change.x : change.y;
+        turned -= std::round(turned);
+        return change * (1 / part);
+    }
+    /// The change of u and v that moves the point by d, or comes nearest to it.
+    static Vec2 parameter_step(const Hit& hit, Vec3 d) {
+        const float uu = length_squared(hit.dpdu), uv = dot(hit.dpdu, hit.dpdv),
+                    vv = length_squared(hit.dpdv);
+        const float determinant = uu * vv - uv * uv;
+        if (!(determinant > 0)) return {};
+        const float u = dot(hit.dpdu, d), v = dot(hit.dpdv, d);
+        const Vec2 change{(vv * u - uv * v) / determinant, (uu * v - uv * u) / determinant};
+        return std::isfinite(change.x) && std::isfinite(change.y) ? change : Vec2();
+    }
 };
 
 } // namespace alhazen

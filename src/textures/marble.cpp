@@ -1,7 +1,6 @@
 /// Marble: veins of colour along y, bent by noise (Perlin 1985; the colours and their spline are pbrt-v4's).
 #include "color/color_space.h"
-#include "textures/noise.h"
-#include "textures/texture_node.h"
+#include "textures/noise_texture.h"
 
 namespace alhazen {
 
@@ -50,7 +49,9 @@ struct Marble final : TextureNodeOf<Family, Marble<Family>> {
 
     Vec3 rgb(const TexturePoint& at) const {
         const Vec3 p = texture_from_world.point(at.p) * scale;
-        return color_at(0.5f + 0.5f * std::sin(p.y + variation * fractal_noise(p, roughness, octaves)));
+        const float width = pixel_width(at, texture_from_world) * scale;
+        return color_at(0.5f +
+                        0.5f * std::sin(p.y + variation * fractal_noise(p, roughness, octaves, width)));
     }
     float value(const TexturePoint& at) const { return dot(rgb(at), Vec3{0.2126f, 0.7152f, 0.0722f}); }
     Spectrum value(const TexturePoint& at, const Wavelengths& lambda) const {

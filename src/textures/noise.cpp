@@ -1,5 +1,6 @@
 #include "textures/noise.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -46,14 +47,28 @@ struct Place {
     }
 };
 
+// How many octaves have waves wider than two widths.
+float octaves_seen(int octaves, float width) {
+    if (!(width > 0)) return static_cast<float>(octaves);
+    return std::clamp(-1 - std::log2(width), 0.0f, static_cast<float>(octaves));
+}
+
+// mean: of shape, for the octaves that are not seen.
 template <class Shape>
-float sum_octaves(Vec3 p, float roughness, int octaves, const Shape& shape) {
+float sum_octaves(Vec3 p, float roughness, int octaves, float width, float mean, const Shape& shape) {
+    const float seen = octaves_seen(octaves, width);
+    const int whole = static_cast<int>(seen);
     float sum = 0, frequency = 1, strength = 1;
-    for (int i = 0; i < octaves; ++i) {
-        sum += strength * shape(noise(p * frequency));
+    auto next = [&] {
         frequency *= lacunarity;
         strength *= roughness;
-    }
+    };
+    for (int i = 0; i < whole; ++i, next()) sum += strength * shape(noise(p * frequency));
+    if (whole == octaves) return sum;
+    const float part = std::clamp((seen - static_cast<float>(whole) - 0.3f) / 0.4f, 0.0f, 1.0f);
+    sum += strength * std::lerp(mean, shape(noise(p * frequency)), part * part * (3 - 2 * part));
+    next();
+    for (int i = whole + 1; i < octaves && mean != 0; ++i, next()) sum += strength * mean;
     return sum;
 }
 
@@ -74,12 +89,13 @@ float noise(Vec3 p) {
     return std::lerp(on_plane(0), on_plane(1), wz);
 }
 
-float fractal_noise(Vec3 p, float roughness, int octaves) {
-    return sum_octaves(p, roughness, octaves, [](float n) { return n; });
+float fractal_noise(Vec3 p, float roughness, int octaves, float width) {
+    return sum_octaves(p, roughness, octaves, width, 0, [](float n) { return n; });
 }
 
-float turbulence(Vec3 p, float roughness, int octaves) {
-    return sum_octaves(p, roughness, octaves, [](float n) { return std::abs(n); });
+float turbulence(Vec3 p, float roughness, int octaves, float width) {
+    constexpr float mean = 0.2f; // of the noise's magnitude
+    return sum_octaves(p, roughness, octaves, width, mean, [](float n) { return std::abs(n); });
 }
 
 } // namespace alhazen

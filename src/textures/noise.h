@@ -13,9 +13,10 @@ namespace alhazen {
 float noise(Vec3 p);
 
 /// Fractional Brownian motion (Perlin 1985; Pharr et al. 2018, section 10.6.3): the noise, plus the same
-/// at 1.99 times the frequency and roughness times the strength, and so on.
-float fractal_noise(Vec3 p, float roughness, int octaves);
-/// The same sum of the noise's magnitude, which has creases.
-float turbulence(Vec3 p, float roughness, int octaves);
+/// at 1.99 times the frequency and roughness times the strength, and so on, but for octaves that are finer
+/// than what covers the given width, whose mean is 0; the last fades in.
+float fractal_noise(Vec3 p, float roughness, int octaves, float width = 0);
+/// The same sum of the noise's magnitude, which has creases. Octaves that are too fine count as their mean.
+float turbulence(Vec3 p, float roughness, int octaves, float width = 0);
 
 } // namespace alhazen

@@ -6,7 +6,16 @@
 
 namespace alhazen {
 
-/// Noise::number(p) takes a point of texture space. As a colour the number is a grey, held between 0 and 1.
+/// How wide a pixel is at the point, in texture space; 0 where it is not known.
+inline float pixel_width(const TexturePoint& at, const Transform& texture_from_world) {
+    if (!at.hit || !at.hit->cone) return 0;
+    const PixelCone::Ellipse ellipse = at.hit->cone->on_surface(at.p, at.ng);
+    return std::max(length(texture_from_world.vector(ellipse.narrow)),
+                    length(texture_from_world.vector(ellipse.wide)));
+}
+
+/// Noise::number(p, width) takes a point of texture space and the width of a pixel there. As a colour the
+/// number is a grey, held between 0 and 1.
 template <class Family, class Noise>
 struct NoiseTexture : TextureNodeOf<Family, Noise> {
     Transform texture_from_world;
@@ -16,7 +25,8 @@ struct NoiseTexture : TextureNodeOf<Family, Noise> {
     }
 
     float value(const TexturePoint& at) const {
-        return static_cast<const Noise*>(this)->number(texture_from_world.point(at.p));
+        return static_cast<const Noise*>(this)->number(texture_from_world.point(at.p),
+                                                       pixel_width(at, texture_from_world));
     }
     Spectrum value(const TexturePoint& at, const Wavelengths&) const {
         return Spectrum(std::clamp(value(at), 0.0f, 1.0f));

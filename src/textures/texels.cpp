@@ -6,20 +6,13 @@ namespace alhazen {
 
 namespace {
 
-template <class Texel, class Evaluate>
-Spectrum look_up(const Pyramid<Texel>& texels, Vec2 st, TexelFilter filter, Evaluate evaluate) {
-    if (filter != TexelFilter::point) return texels.bilinear(0, st, evaluate);
-    auto texel = nearest_texel(texels.wrap_mode(), st, texels.size());
-    return texel ? evaluate(texels.level(0).at(*texel)) : Spectrum(0);
-}
-
 // The same value at all wavelengths.
 struct GreyTexels final : ColorTexels {
     Pyramid<float> texels;
     SpectrumValue one;
 
-    Spectrum lookup(Vec2 st, TexelFilter filter, const Wavelengths& lambda) const override {
-        return look_up(texels, st, filter, [](float v) { return Spectrum(v); }) * one.eval(lambda);
+    Spectrum lookup(const TexelPlace& at, const Wavelengths& lambda) const override {
+        return look_up(texels, at, [](float v) { return Spectrum(v); }) * one.eval(lambda);
     }
     std::size_t bytes() const override { return texels.bytes(); }
 };
@@ -27,8 +20,8 @@ struct GreyTexels final : ColorTexels {
 struct RgbTexels final : ColorTexels {
     Pyramid<Vec3> texels;
 
-    Spectrum lookup(Vec2 st, TexelFilter filter, const Wavelengths&) const override {
-        return look_up(texels, st, filter,
+    Spectrum lookup(const TexelPlace& at, const Wavelengths&) const override {
+        return look_up(texels, at,
                        [](Vec3 c) { return Spectrum(c.x, c.y, c.z, (c.x + c.y + c.z) * (1.0f / 3)); });
     }
     std::size_t bytes() const override { return texels.bytes(); }
@@ -37,9 +30,8 @@ struct RgbTexels final : ColorTexels {
 struct AlbedoTexels final : ColorTexels {
     Pyramid<SigmoidCoefficients> texels;
 
-    Spectrum lookup(Vec2 st, TexelFilter filter, const Wavelengths& lambda) const override {
-        return look_up(texels, st, filter,
-                       [&](const SigmoidCoefficients& c) { return c.eval(lambda.lambda); });
+    Spectrum lookup(const TexelPlace& at, const Wavelengths& lambda) const override {
+        return look_up(texels, at, [&](const SigmoidCoefficients& c) { return c.eval(lambda.lambda); });
     }
     std::size_t bytes() const override { return texels.bytes(); }
 };
@@ -55,10 +47,9 @@ struct ScaledTexels final : ColorTexels {
     Pyramid<ScaledSigmoid> texels;
     const SpectralCurve* illuminant = nullptr; ///< white's light; nullptr for quantities that are not light
 
-    Spectrum lookup(Vec2 st, TexelFilter filter, const Wavelengths& lambda) const override {
-        Spectrum value = look_up(texels, st, filter, [&](const ScaledSigmoid& t) {
-            return t.sigmoid.eval(lambda.lambda) * t.scale;
-        });
+    Spectrum lookup(const TexelPlace& at, const Wavelengths& lambda) const override {
+        Spectrum value = look_up(
+            texels, at, [&](const ScaledSigmoid& t) { return t.sigmoid.eval(lambda.lambda) * t.scale; });
         return illuminant ? value * illuminant->eval(lambda.lambda) : value;
     }
     std::size_t bytes() const override { return texels.bytes(); }
@@ -107,17 +98,15 @@ bool has_transparency(const Image& image, int alpha) {
 
 std::unique_ptr<ColorTexels> make_color_texels(const Image& image, WrapMode wrap, TexelAdjustment adjust,
                                                SpectrumRole role, ColorMode mode) {
-    // The finest level is all that lookups without footprints read.
-    constexpr bool reduced_levels = false;
     bool is_albedo = role == SpectrumRole::albedo;
     auto adjusted = [&](float v) { return is_albedo ? std::min(1.0f, adjust(v)) : adjust(v); };
     if (!image.has_rgb()) {
         auto grey = std::make_unique<GreyTexels>();
-        grey->texels = channel_pyramid(image, 0, wrap, reduced_levels).map(adjusted);
+        grey->texels = channel_pyramid(image, 0, wrap).map(adjusted);
         grey->one = SpectrumValue::constant(1, role);
         return grey;
     }
-    Pyramid<Vec3> colors = rgb_pyramid(image, wrap, reduced_levels).map([&](Vec3 c) {
+    Pyramid<Vec3> colors = rgb_pyramid(image, wrap).map([&](Vec3 c) {
         return Vec3(adjusted(c.x), adjusted(c.y), adjusted(c.z));
     });
     const RgbColorSpace& space = color_space_of(image);
@@ -142,9 +131,9 @@ std::unique_ptr<ColorTexels> make_color_texels(const Image& image, WrapMode wrap
 Pyramid<float> make_float_texels(const Image& image, WrapMode wrap) {
     if (auto alpha = image.channel_index("A");
         alpha && image.channels() > 1 && has_transparency(image, *alpha))
-        return channel_pyramid(image, *alpha, wrap, false);
-    if (!image.has_rgb()) return channel_pyramid(image, 0, wrap, false);
-    return rgb_pyramid(image, wrap, false).map([](Vec3 c) { return (c.x + c.y + c.z) * (1.0f / 3); });
+        return channel_pyramid(image, *alpha, wrap);
+    if (!image.has_rgb()) return channel_pyramid(image, 0, wrap);
+    return rgb_pyramid(image, wrap).map([](Vec3 c) { return (c.x + c.y + c.z) * (1.0f / 3); });
 }
 
 } // namespace alhazen

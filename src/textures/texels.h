@@ -13,6 +13,28 @@ namespace alhazen {
 /// How texels between pixel centres are found.
 enum class TexelFilter { point, bilinear, trilinear, ewa };
 
+/// Where texels are looked up, and over how much.
+struct TexelPlace {
+    Vec2 st;   ///< as in image/pyramid.h, (0, 0) the upper left corner
+    Vec2 a, b; ///< axes of the ellipse that a pixel covers; zero: a point
+    TexelFilter filter = TexelFilter::bilinear;
+    float max_anisotropy = 8;
+};
+
+/// The value there: by one of the levels, or two, whose texels are about as large as the pixel (as pbrt-v4).
+template <class Texel, class Evaluate>
+auto look_up(const Pyramid<Texel>& texels, const TexelPlace& at, Evaluate evaluate) {
+    if (at.filter == TexelFilter::ewa) return texels.ewa(at.st, at.a, at.b, at.max_anisotropy, evaluate);
+    const float width =
+        2 * std::max({std::abs(at.a.x), std::abs(at.a.y), std::abs(at.b.x), std::abs(at.b.y)});
+    if (at.filter == TexelFilter::trilinear) return texels.trilinear(at.st, width, evaluate);
+    const int level = static_cast<int>(texels.continuous_level(width));
+    if (at.filter == TexelFilter::bilinear) return texels.bilinear(level, at.st, evaluate);
+    const auto texel = nearest_texel(texels.wrap_mode(), at.st, texels.size(level));
+    using Value = std::decay_t<decltype(evaluate(std::declval<const Texel&>()))>;
+    return texel ? evaluate(texels.level(level).at(*texel)) : Value(0);
+}
+
 /// Linear values before they are used: scaled, then inverted, then cut off below 0.
 struct TexelAdjustment {
     float scale = 1;
@@ -24,8 +46,7 @@ struct TexelAdjustment {
 /// Colours of an image.
 struct ColorTexels {
     virtual ~ColorTexels() = default;
-    /// st: as in image/pyramid.h, (0, 0) the upper left corner. Filters other than point are bilinear.
-    virtual Spectrum lookup(Vec2 st, TexelFilter filter, const Wavelengths& lambda) const = 0;
+    virtual Spectrum lookup(const TexelPlace& at, const Wavelengths& lambda) const = 0;
     virtual std::size_t bytes() const = 0;
 };
 

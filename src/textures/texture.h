@@ -19,8 +19,9 @@ struct TexturePoint {
     Vec3 p;  ///< world space
     Vec3 ng; ///< geometric normal, world space
     Vec2 uv;
+    const Hit* hit = nullptr; ///< must live as long; nullptr where the point is all that is known
 
-    explicit TexturePoint(const Hit& hit) : p(hit.p), ng(hit.ng), uv(hit.uv) {}
+    explicit TexturePoint(const Hit& hit_) : p(hit_.p), ng(hit_.ng), uv(hit_.uv), hit(&hit_) {}
     TexturePoint(Vec3 p_, Vec3 ng_, Vec2 uv_) : p(p_), ng(ng_), uv(uv_) {}
 };
 

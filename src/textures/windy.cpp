@@ -12,8 +12,8 @@ struct Windy final : NoiseTexture<Family, Windy<Family>> {
                 "colour, a grey between 0 and 1.");
         f.example("waves", {});
     }
-    float number(Vec3 p) const {
-        return std::abs(fractal_noise(p * 0.1f, 0.5f, 3)) * fractal_noise(p, 0.5f, 6);
+    float number(Vec3 p, float width) const {
+        return std::abs(fractal_noise(p * 0.1f, 0.5f, 3, width * 0.1f)) * fractal_noise(p, 0.5f, 6, width);
     }
 };
 

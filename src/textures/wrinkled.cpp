@@ -12,7 +12,7 @@ struct Wrinkled final : OctavesTexture<Family, Wrinkled<Family>> {
                 "meet in creases.");
         Wrinkled::describe_octaves(f);
     }
-    float number(Vec3 p) const { return turbulence(p, this->roughness, this->octaves); }
+    float number(Vec3 p, float width) const { return turbulence(p, this->roughness, this->octaves, width); }
 };
 
 } // namespace
