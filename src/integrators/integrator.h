@@ -44,6 +44,8 @@ struct Integrator {
     virtual bool sees_motion() const { return true; }
     /// True when participating media are seen; for others they are not there.
     virtual bool sees_media() const { return false; }
+    /// True when light spreads beneath surfaces (Material::subsurface); others see their borders only.
+    virtual bool sees_subsurface() const { return false; }
     /// True when a picture of one sample a pixel goes through the pixels' centres.
     virtual bool centres_single_samples() const { return false; }
     /// How lights are chosen: one of light_chooser_names().

@@ -30,6 +30,8 @@ struct PathTracer final : Integrator {
         return FieldType<LightSampler>::choices()[std::size_t(lightsampler)];
     }
 
+    bool sees_subsurface() const override { return true; }
+
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         return trace_path({maxdepth, regularize}, ray, path);
     }

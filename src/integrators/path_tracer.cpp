@@ -2,6 +2,7 @@
 
 #include "integrators/arrival.h"
 #include "integrators/direct_light.h"
+#include "integrators/subsurface_walk.h"
 #include "materials/material.h"
 
 namespace alhazen {
@@ -25,19 +26,31 @@ Task<Spectrum> trace_path(PathRules rules, Ray ray, PathContext& path) {
         if (depth++ == rules.maxdepth) co_return sum;
         if (rules.regularize && rough_before) bsdf->regularize();
 
-        Frame frame = hit->shading_frame();
-        if (has(bsdf->lobes(), Lobes::diffuse | Lobes::glossy)) {
-            if (std::optional<DirectLight> direct =
-                    propose_light(*hit, *bsdf, frame, path, LightSampling::beside_bsdf)) {
-                bool visible = co_await path.visible(direct->shadow_ray);
-                if (visible) sum += throughput * direct->value * direct->mis_weight();
+        const Bsdf* scattering = bsdf;
+        std::optional<BsdfSample> next;
+        Frame frame;
+        for (;;) {
+            frame = hit->shading_frame();
+            if (has(scattering->lobes(), Lobes::diffuse | Lobes::glossy)) {
+                if (std::optional<DirectLight> direct =
+                        propose_light(*hit, *scattering, frame, path, LightSampling::beside_bsdf)) {
+                    bool visible = co_await path.visible(direct->shadow_ray);
+                    if (visible) sum += throughput * direct->value * direct->mis_weight();
+                }
             }
+            float u = path.samples.next1();
+            next = scattering->sample(frame.to_local(hit->wo), u, path.samples.next2());
+            if (!next || next->pdf == 0) co_return sum;
+            throughput *= next->f / next->pdf;
+            const Bssrdf* matter = matter_entered(*hit, *next, path);
+            if (!matter) break;
+            // Light that is squeezed on its way in spreads again on its way out: the two cancel out.
+            std::optional<SubsurfaceExit> exit = co_await leave_matter(*hit, *matter, path);
+            if (!exit) co_return sum;
+            throughput *= exit->weight * sqr(next->eta);
+            hit = exit->hit;
+            scattering = &matter->exit_bsdf;
         }
-
-        float u = path.samples.next1();
-        std::optional<BsdfSample> next = bsdf->sample(frame.to_local(hit->wo), u, path.samples.next2());
-        if (!next || next->pdf == 0) co_return sum;
-        throughput *= next->f / next->pdf;
         arrival = {next->pdf, has(next->lobes, Lobes::specular), {hit->p, hit->ns}};
         rough_before |= !arrival.specular;
         if (has(next->lobes, Lobes::transmission)) eta_scale *= sqr(next->eta);

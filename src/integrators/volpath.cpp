@@ -6,6 +6,7 @@
 #include "integrators/integrator.h"
 #include "integrators/media_walk.h"
 #include "integrators/path_tracer.h"
+#include "integrators/subsurface_walk.h"
 #include "integrators/weights.h"
 #include "materials/material.h"
 
@@ -34,6 +35,7 @@ struct VolPath final : Integrator {
         return FieldType<LightSampler>::choices()[std::size_t(lightsampler)];
     }
     bool sees_media() const override { return true; }
+    bool sees_subsurface() const override { return true; }
 
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         if (!path.scene.has_media()) return trace_path({maxdepth, regularize}, ray, path);
@@ -95,9 +97,8 @@ struct VolPath final : Integrator {
             }
             if (walk.depth++ >= maxdepth) co_return sum;
             if (regularize && walk.rough_before) bsdf->regularize();
-            if (has(bsdf->lobes(), Lobes::diffuse | Lobes::glossy))
-                sum += co_await direct_light_at_surface(*hit, *bsdf, walk, path);
-            if (!scatter_at_surface(*hit, *bsdf, walk, path) || !survives(walk, path)) co_return sum;
+            sum += co_await scatter_at_surface(*hit, *bsdf, walk, path);
+            if (!survives(walk, path)) co_return sum;
         }
     }
 
@@ -153,20 +154,42 @@ struct VolPath final : Integrator {
         walk.ray = {crossing.p, next.wi, infinity, walk.ray.time};
     }
 
-    static bool scatter_at_surface(const Hit& hit, const Bsdf& bsdf, Walk& walk, PathContext& path) {
-        const Frame frame = hit.shading_frame();
-        const float u = path.samples.next1();
-        const std::optional<BsdfSample> next = bsdf.sample(frame.to_local(hit.wo), u, path.samples.next2());
-        if (!next || next->pdf == 0) return false;
-        walk.weights.scatter(next->f / next->pdf, next->pdf);
+    /// Gives the light that comes straight from a light source; what is left of the walk may be nothing.
+    static Task<Spectrum> scatter_at_surface(Hit hit, const Bsdf& bsdf, Walk& walk, PathContext& path) {
+        Spectrum sum = 0;
+        const Bsdf* scattering = &bsdf;
+        for (;;) {
+            const Frame frame = hit.shading_frame();
+            if (has(scattering->lobes(), Lobes::diffuse | Lobes::glossy))
+                sum += co_await direct_light_at_surface(hit, *scattering, walk, path);
+            const float u = path.samples.next1();
+            const std::optional<BsdfSample> next =
+                scattering->sample(frame.to_local(hit.wo), u, path.samples.next2());
+            if (!next || next->pdf == 0) break;
+            walk.weights.scatter(next->f / next->pdf, next->pdf);
+            const Bssrdf* matter = matter_entered(hit, *next, path);
+            if (!matter) {
+                go_on(hit, *next, frame.to_world(next->wi), walk);
+                co_return sum;
+            }
+            // Light that is squeezed on its way in spreads again on its way out: the two cancel out.
+            const std::optional<SubsurfaceExit> exit = co_await leave_matter(hit, *matter, path);
+            if (!exit) break;
+            walk.weights.scatter(exit->weight * sqr(next->eta), 1);
+            hit = exit->hit;
+            scattering = &matter->exit_bsdf;
+        }
+        walk.weights.scale(0);
+        co_return sum;
+    }
+
+    static void go_on(const Hit& hit, const BsdfSample& next, Vec3 wi, Walk& walk) {
         walk.from = {hit.p, hit.ns};
-        walk.specular = has(next->lobes, Lobes::specular);
+        walk.specular = has(next.lobes, Lobes::specular);
         walk.rough_before |= !walk.specular;
-        if (has(next->lobes, Lobes::transmission)) walk.eta_scale *= sqr(next->eta);
-        const Vec3 wi = frame.to_world(next->wi);
+        if (has(next.lobes, Lobes::transmission)) walk.eta_scale *= sqr(next.eta);
         walk.medium = medium_beyond(hit, wi, walk.medium);
         walk.ray = hit.spawn(wi);
-        return true;
     }
 
     static bool survives(Walk& walk, PathContext& path) {

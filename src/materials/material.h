@@ -10,6 +10,8 @@
 
 namespace alhazen {
 
+struct Bssrdf; // materials/bssrdf.h
+
 struct Material {
     static constexpr std::string_view family_name = "material";
     virtual ~Material() = default;
@@ -18,6 +20,11 @@ struct Material {
     /// which light crosses as if it were not there. A material whose index of refraction varies with the
     /// wavelength terminates lambda's secondary wavelengths.
     virtual Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const = 0;
+    /// How light spreads beneath the surface that is refracted into it at the hit; nullptr where it just goes
+    /// on. Made in the arena.
+    virtual const Bssrdf* subsurface(const Hit&, const Wavelengths&, Arena&) const { return nullptr; }
+    /// Whether subsurface() may give anything else.
+    virtual bool has_subsurface() const { return false; }
     /// Whether at() or choose() look at the hit's uv, or at() distinguishes directions along the surface.
     /// Where not, hits may come without uv and tangents.
     virtual bool needs_parameters() const { return true; }

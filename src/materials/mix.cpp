@@ -73,6 +73,10 @@ struct Mix final : Material {
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
         return choose(hit)->at(hit, lambda, arena);
     }
+    const Bssrdf* subsurface(const Hit& hit, const Wavelengths& lambda, Arena& arena) const override {
+        return choose(hit)->subsurface(hit, lambda, arena);
+    }
+    bool has_subsurface() const override { return first->has_subsurface() || second->has_subsurface(); }
     bool is_interface() const override { return first->is_interface() && second->is_interface(); }
 };
 

@@ -1,7 +1,7 @@
 /// The same matter everywhere: haze, milk, water (Pharr et al. 2023, section 11.4.1).
 #include "describe/spectrum_parameter.h"
+#include "materials/presets.h"
 #include "media/medium.h"
-#include "media/presets.h"
 
 namespace alhazen {
 

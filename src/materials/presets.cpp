@@ -1,4 +1,4 @@
-#include "media/presets.h"
+#include "materials/presets.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ struct Named {
 // Narasimhan, Gupta, Donner, Ramamoorthi, Nayar and Jensen 2006, "Acquiring scattering properties of
 // participating media by dilution".
 constexpr Named presets[] = {
-#include "media/data/presets.inl"
+#include "materials/data/presets.inl"
 };
 
 } // namespace
