@@ -13,7 +13,7 @@ PREFIX ?= /usr/local
 # For make sanitize, tsan: which tests, as ctest takes it (TESTS="-LE slow").
 TESTS ?=
 
-.PHONY: all render program build test check format sanitize tsan coverage tidy clang bench performance performance-page validate install clean
+.PHONY: all render program build test check format sanitize tsan coverage tidy clang bench performance performance-page validate ablations install clean
 .NOTPARALLEL:
 
 all: render
@@ -104,6 +104,14 @@ validate:
 	@cmake -S . -B build >/dev/null
 	@cmake --build --preset release --target validate
 	build/bin/validate --page docs/validation.md $(VALIDATE)
+
+# What each choice of the path tracer is worth at equal time, for docs/performance.md. ABLATIONS="--only coffee"
+ablations:
+	@tools/install_packages build
+	@test -f build/build.ninja || cmake --preset release -DALHAZEN_TESTS=OFF
+	@cmake -S . -B build >/dev/null
+	@cmake --build --preset release --target ablations
+	build/bin/ablations --page docs/performance.md $(ABLATIONS)
 
 install: program
 	@cmake --build --preset release --target alhazen_library

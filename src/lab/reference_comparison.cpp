@@ -39,7 +39,9 @@ Picture render_once(const std::filesystem::path& file, const ReferenceComparison
     Picture p;
     const double start = cpu_seconds();
     Messages messages;
-    auto world = build_world(read_scene(file, messages), settings, messages);
+    SceneDescription scene = read_scene(file, messages);
+    if (options.change) options.change(scene);
+    auto world = build_world(std::move(scene), settings, messages);
     p.load = cpu_seconds() - start;
     p.wall = render(*world, settings, {}).seconds;
     p.render = cpu_seconds() - start - p.load;

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "describe/scene_description.h"
 #include "image/image.h"
 
 namespace alhazen {
@@ -16,6 +18,7 @@ struct ReferenceComparisonOptions {
     double seconds = 240;   ///< for the whole scene, about
     std::string integrator; ///< instead of the scene's
     std::string scene_file = "scene.pbrt";
+    std::function<void(SceneDescription&)> change; ///< made to the scene before it is built; may be empty
 };
 
 /// Errors of pictures with more and more samples.

@@ -1,0 +1,149 @@
+/// ablations: what the path tracer's choices are worth, one by one, at equal time; see docs/performance.md.
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "benchmarks/validation/facts.h"
+#include "lab/reference_comparison.h"
+
+namespace alhazen::bench {
+namespace {
+
+constexpr std::string_view begin_mark = "<!-- ablations -->", end_mark = "<!-- end of ablations -->";
+
+struct Arguments {
+    ReferenceComparisonOptions options;
+    std::string scenes = "../shared/scenes/pbrt", page;
+    std::vector<std::string> only;
+};
+
+/// One thing that is done in another way.
+struct Change {
+    std::string name;
+    std::function<void(SceneDescription&)> apply;
+};
+
+Change other_sampler(const std::string& type) {
+    return {"sampler " + type, [type](SceneDescription& scene) {
+                scene.sampler = {};
+                scene.sampler.type = type;
+            }};
+}
+
+Change other_light_sampler(const std::string& name) {
+    return {"lights by " + name, [name](SceneDescription& scene) {
+                Parameter choice;
+                choice.name = "lightsampler";
+                choice.type = ValueType::string;
+                choice.values = std::vector<std::string>{name};
+                // Others choose in one way only.
+                if (scene.integrator.type == "path" || scene.integrator.type == "volpath" ||
+                    scene.integrator.type.empty())
+                    scene.integrator.set(choice);
+            }};
+}
+
+/// The first is the default.
+std::vector<Change> changes() {
+    return {other_sampler("zsobol"),  other_sampler("independent"), other_sampler("stratified"),
+            other_sampler("halton"),  other_sampler("sobol"),       other_sampler("paddedsobol"),
+            other_sampler("pmj02bn"), other_light_sampler("power"), other_light_sampler("uniform")};
+}
+
+/// Noise times processor seconds.
+double work(const std::filesystem::path& folder, ReferenceComparisonOptions options, const Change& change) {
+    options.change = [&](SceneDescription& scene) {
+        scene.sampler = {};
+        scene.sampler.type = "zsobol";
+        change.apply(scene);
+    };
+    const ReferenceComparison c = compare_with_reference(folder, options);
+    return c.noise * (c.cpu_seconds - c.load_seconds);
+}
+
+std::string measure(const Arguments& a) {
+    const std::vector<Change> all = changes();
+    std::map<std::string, std::vector<double>> ratios; // by change, a scene each
+    std::vector<std::string> names;
+    for (const SceneFacts& facts : validation_scenes()) {
+        if (!a.only.empty() && std::find(a.only.begin(), a.only.end(), facts.name) == a.only.end()) continue;
+        names.push_back(facts.name);
+        const std::filesystem::path folder = std::filesystem::path(a.scenes) / facts.name;
+        std::vector<double> works;
+        for (const Change& change : all) works.push_back(work(folder, a.options, change));
+        // The machine may have become slower or faster meanwhile.
+        const double standard = std::sqrt(works.front() * work(folder, a.options, all.front()));
+        for (std::size_t i = 1; i < all.size(); ++i) ratios[all[i].name].push_back(works[i] / standard);
+        fmt::print("{}", facts.name);
+        for (std::size_t i = 1; i < all.size(); ++i)
+            fmt::print("  {} {:.2f}", all[i].name, works[i] / standard);
+        fmt::print("\n");
+        std::fflush(stdout);
+    }
+    std::string table =
+        fmt::format("\n{} samples a pixel, {} seeds.\n\n| instead of zsobol, lights by tree |", a.options.spp,
+                    a.options.seeds);
+    for (const std::string& name : names) table += " " + name + " |";
+    table += " geometric mean |\n|---|";
+    for (std::size_t i = 0; i <= names.size(); ++i) table += "---|";
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        double logs = 0;
+        table += "\n| " + all[i].name + " |";
+        for (double ratio : ratios[all[i].name]) {
+            table += fmt::format(" {:.2f} |", ratio);
+            logs += std::log(ratio);
+        }
+        table += fmt::format(" {:.2f} |",
+                             std::exp(logs / static_cast<double>(std::max<std::size_t>(names.size(), 1))));
+    }
+    return table + "\n\n";
+}
+
+void put_into(const std::filesystem::path& page, const std::string& table) {
+    const std::string text = read_file(page);
+    const std::size_t begin = text.find(begin_mark), end = text.find(end_mark);
+    if (begin == std::string::npos || end == std::string::npos || end < begin)
+        throw std::runtime_error(
+            fmt::format("{}: the page has no marks {} and {}", page.string(), begin_mark, end_mark));
+    write_file(page, text.substr(0, begin + begin_mark.size()) + "\n" + table + text.substr(end));
+}
+
+int run(const Arguments& a) {
+    if (!std::filesystem::exists(a.scenes)) {
+        fmt::print("The scenes are not there: {}\n", a.scenes);
+        return 0;
+    }
+    const std::string table = measure(a);
+    fmt::print("{}", table);
+    if (!a.page.empty()) put_into(a.page, table);
+    return 0;
+}
+
+} // namespace
+} // namespace alhazen::bench
+
+int main(int argc, char** argv) {
+    using namespace alhazen::bench;
+    CLI::App app("What the path tracer's choices are worth at equal time");
+    Arguments a;
+    a.options.spp = 16;
+    a.options.seeds = 4;
+    app.add_option("--scenes", a.scenes, "folder with the scenes");
+    app.add_option("--only", a.only, "these scenes")->delimiter(',');
+    app.add_option("--seeds", a.options.seeds, "pictures of each")->check(CLI::Range(4, 64));
+    app.add_option("--spp", a.options.spp, "samples per pixel of each picture")->check(CLI::Range(1, 4096));
+    app.add_option("--page", a.page, "put the table into this page, between its marks");
+    try {
+        app.parse(argc, argv);
+        return run(a);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e);
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "ablations: error: {}\n", e.what());
+        return 2;
+    }
+}
