@@ -36,6 +36,7 @@ struct BuildContext {
     /// Full film resolution (pixels) and diagonal (metres): cameras.
     Vec2i film_resolution{1, 1};
     float film_diagonal = 0.035f;
+    float displacement_edge_scale = 1; ///< displaced meshes: factor of their edges' lengths
     /// Shutter open to close: film sensors (seconds).
     float exposure_time = 1;
     float shutter_open = 0;           ///< when (seconds): what moves and is asked for its place once

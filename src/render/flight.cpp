@@ -94,10 +94,14 @@ bool Flight::start_next(Path& path) {
         path.arena.reset();
         SampleStream stream(*world_.sampler, path.pixel, static_cast<std::uint32_t>(path.sample));
         FilterSample filter;
-        if (!centred_) filter = world_.filter->sample(stream.pixel2());
+        const SceneOptionValues& options = world_.options;
+        if (!centred_ && !options.disablepixeljitter) filter = world_.filter->sample(stream.pixel2());
         path.filter_weight = filter.weight;
         Wavelengths lambda = Wavelengths::rgb();
-        if (world_.mode == ColorMode::spectral) lambda = world_.film->sample_wavelengths(stream.next1());
+        if (world_.mode == ColorMode::spectral) {
+            const float u = stream.next1();
+            lambda = world_.film->sample_wavelengths(options.disablewavelengthjitter ? 0.5f : u);
+        }
         CameraSample& at = path.camera_sample;
         at = {};
         at.film = {static_cast<float>(path.pixel.x) + 0.5f + filter.offset.x,
@@ -110,6 +114,10 @@ bool Flight::start_next(Path& path) {
             at.lens = stream.next2();
         else
             stream.skip(2);
+        if (options.disablepixeljitter) {
+            at.lens = {0.5f, 0.5f};
+            at.time = 0.5f;
+        }
         auto camera_ray = world_.camera->ray(at);
         path.context.emplace(*world_.scene, stream, lambda, path.arena, counts.rays,
                              paths_.size() > 1 ? &queue_ : nullptr, path.number);

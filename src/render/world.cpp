@@ -242,9 +242,11 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     messages.throw_if_errors();
 
     auto world = std::make_unique<World>();
+    world->options = read_scene_options(description, messages);
     static const MeshReader mesh_reader = &read_ply;
     BuildContext context{messages};
     context.base_folder = description.base_folder;
+    context.displacement_edge_scale = world->options.displacementedgescale;
     context.mesh_reader = &mesh_reader;
     static const GridReader grid_reader = &read_grid;
     context.grid_reader = &grid_reader;
@@ -272,7 +274,8 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
 
     add_scene(*world, description, *camera, choose_accel(description, settings, context), context);
     messages.throw_if_errors();
-    world->scene->set_pixel_cone(pixel_cone(*world->camera, world->film->resolution(), world->spp));
+    if (!world->options.disabletexturefiltering)
+        world->scene->set_pixel_cone(pixel_cone(*world->camera, world->film->resolution(), world->spp));
     world->scene->set_light_chooser(world->integrator->light_sampler());
     world->paths_in_flight =
         settings.paths_in_flight > 0 ? settings.paths_in_flight : default_paths_in_flight(*world->scene);

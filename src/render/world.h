@@ -10,6 +10,7 @@
 #include "integrators/integrator.h"
 #include "materials/material_set.h"
 #include "media/medium_set.h"
+#include "render/scene_options.h"
 #include "render/settings.h"
 #include "samplers/sampler.h"
 #include "scene/scene.h"
@@ -32,6 +33,7 @@ struct World {
     int spp = 1;
     std::uint64_t seed = 0;
     int paths_in_flight = 1;
+    SceneOptionValues options;
 
     PictureOrder picture() const {
         return {*scene, *camera, *film, *filter, *sampler, mode, spp, seed, paths_in_flight};

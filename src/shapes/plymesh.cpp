@@ -169,7 +169,9 @@ void FileMesh::finish(const Node& node, BuildContext& context) {
         MeshChecks{context.messages, place, prefix}.finite("P", data->P);
         if (context.messages.error_count() != errors) return;
         const std::string problem =
-            Displacement{*displacement, longest_edge_too.value_or(longest_edge), context.world_from_node}
+            Displacement{*displacement,
+                         longest_edge_too.value_or(longest_edge) * context.displacement_edge_scale,
+                         context.world_from_node}
                 .apply(*data);
         if (!problem.empty()) return context.messages.add_error(place, prefix + problem);
     }

@@ -175,6 +175,9 @@ TEST(PlyMesh, Displaces) {
     }
     EXPECT_EQ(make("plymesh", {filename, height, make_float("edgelength", 2)}, making)->primitive_count(),
               2u);
+    making.edge_scale = 0.125f;
+    EXPECT_GE(make("plymesh", {filename, height, make_float("edgelength", 2)}, making)->primitive_count(),
+              32u);
     EXPECT_THAT(errors_of("plymesh",
                           {filename, make_float("edgelength", 1), make_float("displacement.edgelength", 1)},
                           making),

@@ -14,6 +14,7 @@ struct Making {
     Matrix4 world_from_object = {};
     bool reverse = false;
     MeshReader reader = nullptr;
+    float edge_scale = 1;
 };
 
 inline std::unique_ptr<Shape> try_make(const std::string& kind, std::vector<Parameter> parameters,
@@ -23,6 +24,7 @@ inline std::unique_ptr<Shape> try_make(const std::string& kind, std::vector<Para
     node.parameters = std::move(parameters);
     node.place = Place::of_file("test.pbrt");
     BuildContext context{.messages = messages};
+    context.displacement_edge_scale = making.edge_scale;
     context.world_from_node = Transform(making.world_from_object);
     context.reverse_orientation = making.reverse;
     context.mesh_reader = &making.reader;
