@@ -91,6 +91,18 @@ void write_outputs(const World& world, const Image& image, const std::vector<std
     }
 }
 
+// How near an integration came, where one was made: its files, and the table on the terminal.
+void tell_quadrature(const Quadrature& q, const World& world, bool quiet) {
+    std::string lines;
+    for (const QuadratureError& e : q.errors)
+        lines += fmt::format("{} {:g}\n", e.samples, e.mean_squared_error);
+    if (!q.errors_file.empty()) write_file(q.errors_file, lines);
+    if (!q.integrand_file.empty()) write_image(q.integrand_file, q.integrand, write_options(world));
+    if (quiet) return;
+    fmt::print("{:>8}  mean squared error\n", "samples");
+    for (const QuadratureError& e : q.errors) fmt::print("{:>8}  {:.3e}\n", e.samples, e.mean_squared_error);
+}
+
 void write_stats(const RenderOptions& options, const World& world, const RenderStats& stats,
                  const Timing& timing, const Messages& messages) {
     SceneCounts counts = world.scene->counts();
@@ -115,6 +127,12 @@ void write_stats(const RenderOptions& options, const World& world, const RenderS
                                                                  : hardware_threads();
     json["non_finite_samples"] = stats.bad_samples;
     json["cancelled"] = stats.cancelled;
+    if (stats.quadrature) {
+        json["quadrature_errors"] = nlohmann::json::array();
+        for (const QuadratureError& e : stats.quadrature->errors)
+            json["quadrature_errors"].push_back(
+                {{"samples", e.samples}, {"mean_squared_error", e.mean_squared_error}});
+    }
     json["warnings"] = nlohmann::json::array();
     for (const Message& m : messages.warnings()) json["warnings"].push_back(m.full_text());
     write_file(options.stats_file, json.dump(2) + "\n");
@@ -189,6 +207,7 @@ int run_render(RenderOptions& options) {
     write_outputs(*world, image, options.outputs);
     const std::size_t layers = write_layers(*world, options.outputs.front());
     report_bad_samples(options, stats);
+    if (stats.quadrature) tell_quadrature(*stats.quadrature, *world, options.quiet);
     if (!options.stats_file.empty()) write_stats(options, *world, stats, timing, messages);
     if (stats.cancelled && !options.quiet)
         fmt::print(stderr, "stopped after {} of {} samples per pixel; the picture so far is written\n",

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "cameras/camera.h"
 #include "color/wavelengths.h"
 #include "film/film.h"
 #include "integrators/path_context.h"
+#include "integrators/quadrature.h"
 #include "scene/scene.h"
 
 namespace alhazen {
@@ -68,6 +70,8 @@ struct PictureWork {
     /// bits whatever the threads. progress may be called from any thread with the fraction of the pass that
     /// is done.
     virtual PictureCounts run(int pass, const std::function<void(double fraction)>& progress) = 0;
+    /// For those that integrate something known: how near they have come so far.
+    virtual std::optional<Quadrature> quadrature() const { return std::nullopt; }
 };
 
 } // namespace alhazen

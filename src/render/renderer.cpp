@@ -51,6 +51,7 @@ class Renderer {
             done_ = static_cast<int>(std::int64_t{world_.spp} * (pass + 1) / passes);
             report((pass + 1.0) / passes, true);
         }
+        quadrature_ = work.quadrature();
     }
 
     void run_samples() {
@@ -121,6 +122,7 @@ class Renderer {
         s.seconds = seconds_since(start_);
         s.samples = done_;
         s.cancelled = done_ < world_.spp;
+        s.quadrature = quadrature_;
         auto add = [&s](const PictureCounts& counts) {
             s.rays += counts.rays;
             s.bad_samples += counts.bad_samples;
@@ -145,6 +147,7 @@ class Renderer {
     double last_pass_ = 0, rays_per_second_ = 0;
     std::atomic<std::size_t> tiles_done_{0};
     PictureCounts whole_; // of work that is not done by flights
+    std::optional<Quadrature> quadrature_;
     std::mutex report_mutex_;
     tbb::enumerable_thread_specific<Flight> flights_; // one a thread
     Clock::time_point start_ = Clock::now();

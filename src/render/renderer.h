@@ -29,6 +29,7 @@ struct RenderStats {
     std::uint64_t bad_samples = 0;
     std::vector<BadSample> first_bad_samples; ///< up to ten, in pixel order
     bool cancelled = false;
+    std::optional<Quadrature> quadrature; ///< of integrators that integrate something known
 };
 
 /// How rendering talks to the one who asked for it.

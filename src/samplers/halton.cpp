@@ -162,6 +162,11 @@ class HaltonSampler final : public CountedSampler {
         }
         return {scrambled(a, 0, column), scrambled(b, 1, row)};
     }
+    /// Both bases come round together.
+    bool is_even(int samples) const override {
+        while (samples % 6 == 0) samples /= 6;
+        return samples == 1;
+    }
     void prepare(Vec2i resolution, int samples_per_pixel, std::uint64_t seed_of_render) override {
         CountedSampler::prepare(resolution, samples_per_pixel, seed_of_render);
         for (std::size_t i = 0; i < 2; ++i) {

@@ -2,6 +2,9 @@
 /// dimension), so that no schedule changes the image.
 #pragma once
 
+#include <bit>
+#include <memory>
+
 #include "describe/kind.h"
 
 namespace alhazen {
@@ -27,6 +30,12 @@ struct Sampler {
     virtual Vec2 next2(SampleState& state) const = 0;
     /// The pair for the place in the pixel: the best-distributed one. Taken first, once.
     virtual Vec2 pixel2(SampleState& state) const { return next2(state); }
+
+    /// Whether that many samples of a pixel are spread as evenly as the kind can.
+    virtual bool is_even(int samples) const { return std::has_single_bit(static_cast<unsigned>(samples)); }
+    /// The sampler for another number of samples, where it depends on the number which places they have;
+    /// nullptr where few are the first of many.
+    virtual std::unique_ptr<Sampler> for_count(int /*samples*/) const { return nullptr; }
 
     /// As declared, rounded as the kind needs (powers of two, strata).
     virtual int samples_per_pixel() const = 0;

@@ -48,14 +48,26 @@ class StratifiedSampler final : public CountedSampler {
     }
     void prepare(Vec2i resolution, int samples_per_pixel, std::uint64_t seed_of_render) override {
         CountedSampler::prepare(resolution, samples_per_pixel, seed_of_render);
-        if (samples_per_pixel == xsamples * ysamples) return;
-        // Another count: the two factors nearest to its square root.
-        ysamples = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(samples_per_pixel))));
-        while (samples_per_pixel % ysamples != 0) --ysamples;
-        xsamples = samples_per_pixel / ysamples;
+        if (samples_per_pixel != xsamples * ysamples) divide(samples_per_pixel);
+    }
+
+    bool is_even(int samples) const override {
+        const auto side = std::lround(std::sqrt(static_cast<double>(samples)));
+        return side * side == samples;
+    }
+    std::unique_ptr<Sampler> for_count(int samples) const override {
+        auto other = std::make_unique<StratifiedSampler>(*this);
+        other->divide(samples);
+        return other;
     }
 
   private:
+    // The two factors nearest to its square root.
+    void divide(int samples) {
+        ysamples = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(samples))));
+        while (samples % ysamples != 0) --ysamples;
+        xsamples = samples / ysamples;
+    }
     struct Place {
         std::uint32_t cell;
         std::uint64_t hash;

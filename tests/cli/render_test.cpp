@@ -144,6 +144,21 @@ TEST_F(Render, StatsAreJson) {
     EXPECT_EQ(stats["non_finite_samples"], 0);
 }
 
+TEST_F(Render, AnIntegralComesWithItsErrors) {
+    write("f.pbrt", "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
+                    "Integrator \"function\" \"string imagefilename\" \"step.png\" \"string filename\" "
+                    "\"errors.txt\"\nSampler \"sobol\"\nWorldBegin\n");
+    const Outcome o = alhazen("render f.pbrt --spp 4 -o a.png --stats s.json");
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_THAT(o.out, HasSubstr("samples  mean squared error\n       1  1.000e+00\n       2  "));
+    EXPECT_TRUE(exists("step.png"));
+    EXPECT_THAT(file_text(path("errors.txt")), ::testing::StartsWith("1 1\n2 "));
+    const auto errors = nlohmann::json::parse(file_text(path("s.json")))["quadrature_errors"];
+    ASSERT_EQ(errors.size(), 3u);
+    EXPECT_EQ(errors[0]["mean_squared_error"], 1);
+    EXPECT_EQ(errors[2]["samples"], 4);
+}
+
 TEST_F(Render, LenientRendersOnAndSaysWhatWasReplaced) {
     write("new.pbrt", file_text(path("scene.pbrt")) + "Shape \"blob\" \"float size\" 3\n");
     expect_error("render new.pbrt -o a.png", "new.pbrt:15:1: error: unknown shape \"blob\"");
