@@ -7,19 +7,13 @@ namespace alhazen {
 
 struct BoxMedium : Medium {
     Vec3 p0{0}, p1{1};
-    float g = 0;
-    float scale = 1;
 
   protected:
     template <class T>
     static void describe_box(Fields<T>& f) {
         f.field("p0", &T::p0, "one corner of the box that it fills");
         f.field("p1", &T::p1, "the opposite corner");
-        f.field("g", &T::g,
-                "mean cosine of the angle by which light is scattered: 0 evenly, towards 1 straight on, "
-                "towards -1 back")
-            .in(-1, 1);
-        f.field("scale", &T::scale, "factor on sigma_a and sigma_s").at_least(0);
+        Medium::describe_common(f);
     }
     /// Sets box, placement and phase; false with an error added when there is no box.
     bool place_box(const Node& node, BuildContext& context) {

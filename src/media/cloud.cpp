@@ -1,25 +1,21 @@
 /// A cloud made of noise: flat below, billowing above (Pharr et al. 2023, section 11.4.5).
-#include "describe/spectrum_parameter.h"
 #include "media/box_medium.h"
+#include "media/medium_fields.h"
 #include "textures/noise.h"
 
 namespace alhazen {
 
 namespace {
 
-struct Cloud final : BoxMedium {
+struct Cloud final : BoxMedium, CrossSections {
     float density = 1, wispiness = 1, frequency = 5;
-    UnboundedSpectrum sigma_a{1}, sigma_s{1};
 
     static void describe(Fields<Cloud>& f) {
         f.about("A cloud made of noise. Its base is at y = 0 and its top near y = 1, in its own space.");
         f.field("density", &Cloud::density, "how thick its upper parts are").at_least(0);
         f.field("wispiness", &Cloud::wispiness, "how much its edges are torn").at_least(0);
         f.field("frequency", &Cloud::frequency, "how fine its billows are").above(0);
-        f.field("sigma_a", &Cloud::sigma_a, "how much light is absorbed per length where the density is 1")
-            .at_least(0);
-        f.field("sigma_s", &Cloud::sigma_s, "how much light is scattered per length where the density is 1")
-            .at_least(0);
+        describe_cross_sections(f);
         describe_box(f);
         f.example("cumulus", {make_float("sigma_a", 0.1f), make_float("sigma_s", 30), make_float("g", 0.6f)});
         f.example("smooth",

@@ -11,7 +11,7 @@ struct Homogeneous final : Medium {
     std::string preset;
     UnboundedSpectrum sigma_a{1}, sigma_s{1};
     IlluminantSpectrum Le{0};
-    float Lescale = 1, scale = 1, g = 0;
+    float Lescale = 1;
 
     static void describe(Fields<Homogeneous>& f) {
         f.about("Matter of one density everywhere.");
@@ -21,11 +21,7 @@ struct Homogeneous final : Medium {
         f.field("sigma_s", &Homogeneous::sigma_s, "how much light is scattered per length").at_least(0);
         f.field("Le", &Homogeneous::Le, "radiance of what absorbs: sigma_a times it is emitted per length");
         f.field("Lescale", &Homogeneous::Lescale, "factor on Le").at_least(0);
-        f.field("scale", &Homogeneous::scale, "factor on sigma_a and sigma_s").at_least(0);
-        f.field("g", &Homogeneous::g,
-                "mean cosine of the angle by which light is scattered: 0 evenly, towards 1 straight on, "
-                "towards -1 back")
-            .in(-1, 1);
+        describe_common(f);
         f.example("haze", {make_float("sigma_a", 0.01f), make_float("sigma_s", 0.2f), make_float("g", 0.7f)});
         f.example("milk", {make_string("preset", "Wholemilk"), make_float("scale", 100)});
         f.example("ember", {make_rgb("sigma_a", 0.1f, 0.4f, 1), make_float("sigma_s", 0),

@@ -40,7 +40,18 @@ struct Medium {
     /// From the world to the medium's own space.
     Ray to_medium(const Ray& ray) const { return world_from_medium_.inverse_ray(ray); }
 
+    float scale = 1;
+    float g = 0;
+
   protected:
+    template <class T>
+    static void describe_common(Fields<T>& f) {
+        f.field("scale", &T::scale, "factor on sigma_a and sigma_s").at_least(0);
+        f.field("g", &T::g,
+                "mean cosine of the angle by which light is scattered: 0 evenly, towards 1 straight on, "
+                "towards -1 back")
+            .in(-1, 1);
+    }
     MajorantGrid majorants_;
     HenyeyGreenstein phase_;
     Transform world_from_medium_;

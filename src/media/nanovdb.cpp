@@ -1,47 +1,33 @@
 /// Smoke, clouds and fire from grid files, where most of space is empty (Pharr et al. 2023, section 11.4.6).
 #include <fmt/format.h>
 
-#include "describe/spectrum_parameter.h"
 #include "media/glow.h"
 #include "media/medium.h"
+#include "media/medium_fields.h"
 #include "media/sparse_field.h"
 
 namespace alhazen {
 
 namespace {
 
-struct NanoVdb final : Medium {
+struct NanoVdb final : Medium, CrossSections, TemperatureFields {
     std::string filename;
-    UnboundedSpectrum sigma_a{1}, sigma_s{1};
-    float g = 0, scale = 1, Lescale = 1, temperaturescale = 1;
-    std::optional<float> temperatureoffset, temperaturecutoff;
+    float Lescale = 1;
 
     static void describe(Fields<NanoVdb>& f) {
         f.about("Matter whose density a NanoVDB file holds, in a grid named \"density\"; where there is a "
                 "grid named \"temperature\", what absorbs glows as a black body, whose maximum is 1.");
         f.field("filename", &NanoVdb::filename, "the .nvdb file, relative to the scene's folder").required();
-        f.field("sigma_a", &NanoVdb::sigma_a, "how much light is absorbed per length where the density is 1")
-            .at_least(0);
-        f.field("sigma_s", &NanoVdb::sigma_s, "how much light is scattered per length where the density is 1")
-            .at_least(0);
-        f.field("scale", &NanoVdb::scale, "factor on sigma_a and sigma_s").at_least(0);
-        f.field("g", &NanoVdb::g,
-                "mean cosine of the angle by which light is scattered: 0 evenly, towards 1 straight on, "
-                "towards -1 back")
-            .in(-1, 1);
+        describe_cross_sections(f);
+        describe_common(f);
         f.field("Lescale", &NanoVdb::Lescale, "factor on what is emitted").at_least(0);
-        f.field("temperaturescale", &NanoVdb::temperaturescale, "factor on the temperatures");
-        f.field("temperatureoffset", &NanoVdb::temperatureoffset,
-                "subtracted from the temperatures before scaling")
-            .otherwise("temperaturecutoff, or 0");
-        f.field("temperaturecutoff", &NanoVdb::temperaturecutoff, "older name of temperatureoffset");
+        describe_temperatures(f);
         f.example("smoke", {make_string("filename", "volumes/smoke.nvdb")});
         f.example("fire", {make_string("filename", "volumes/smoke.nvdb"), make_float("scale", 10),
                            make_float("Lescale", 0.01f), make_float("temperaturescale", 10)});
     }
     void finish(const Node& node, BuildContext& context) {
         phase_ = HenyeyGreenstein(g);
-        offset_ = temperatureoffset.value_or(temperaturecutoff.value_or(0));
         glow_ = Glow(context.color_mode);
         if (!read(node, context)) return;
         // Everything happens in the space of the density's samples; lengths are those of the medium's own.
@@ -66,8 +52,8 @@ struct NanoVdb final : Medium {
         const float d = density_.lookup(index_from_medium_.point(p));
         MediumPoint point{c.sigma_a * d, c.sigma_s * d, 0};
         if (is_emissive()) {
-            const float kelvin = temperature_.lookup(temperature_index_from_medium_.point(p));
-            point.Le = glow_.eval((kelvin - offset_) * temperaturescale, lambda) * Lescale;
+            const float number = temperature_.lookup(temperature_index_from_medium_.point(p));
+            point.Le = glow_.eval(kelvin(number), lambda) * Lescale;
         }
         return point;
     }
@@ -103,7 +89,6 @@ struct NanoVdb final : Medium {
     SparseField density_, temperature_;
     Transform index_from_medium_, temperature_index_from_medium_;
     Glow glow_{ColorMode::spectral};
-    float offset_ = 0;
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "color/upsample.h"
 #include "media/box_medium.h"
+#include "media/medium_fields.h"
 #include "media/sampled_grid.h"
 
 namespace alhazen {
@@ -38,17 +39,14 @@ std::vector<CellColor> cell_colors(const RgbColorSpace& space, const std::vector
     return cells;
 }
 
-struct RgbGrid final : BoxMedium {
-    int nx = 1, ny = 1, nz = 1;
+struct RgbGrid final : BoxMedium, GridSides {
     std::vector<float> sigma_a, sigma_s, Le;
     float Lescale = 1;
 
     static void describe(Fields<RgbGrid>& f) {
         f.about("Matter whose absorption, scattering and glow are given as colours at the centres of the "
                 "cells of a box.");
-        f.field("nx", &RgbGrid::nx, "cells along x").in(1, 65536);
-        f.field("ny", &RgbGrid::ny, "cells along y").in(1, 65536);
-        f.field("nz", &RgbGrid::nz, "cells along z").in(1, 65536);
+        describe_sides(f);
         f.field("sigma_a", &RgbGrid::sigma_a,
                 "nx ny nz colours (rgb), x running fastest: how much light is absorbed per length")
             .at_least(0)
@@ -119,11 +117,11 @@ struct RgbGrid final : BoxMedium {
     void set(const Node& node, std::string_view name, std::vector<float>& values,
              SampledGrid<CellColor>& grid) const {
         if (values.empty()) return;
-        grid = SampledGrid<CellColor>({nx, ny, nz}, cell_colors(space_of(*node.find(name)), values));
+        grid = SampledGrid<CellColor>(sides(), cell_colors(space_of(*node.find(name)), values));
         values = {};
     }
     bool check_counts(const Node& node, BuildContext& context) const {
-        const auto wanted = static_cast<std::int64_t>(nx) * ny * nz;
+        const auto wanted = cell_count();
         bool is_right = true;
         auto fail = [&](const Place& place, std::string text) {
             context.messages.add_error(place, std::move(text));

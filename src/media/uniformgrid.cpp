@@ -1,45 +1,30 @@
 /// A box of samples of a density: smoke, clouds (Pharr et al. 2023, section 11.4.3).
 #include <fmt/format.h>
 
-#include "describe/spectrum_parameter.h"
 #include "media/box_medium.h"
 #include "media/glow.h"
+#include "media/medium_fields.h"
 #include "media/sampled_grid.h"
 
 namespace alhazen {
 
 namespace {
 
-struct UniformGrid final : BoxMedium {
-    int nx = 1, ny = 1, nz = 1;
+struct UniformGrid final : BoxMedium, CrossSections, TemperatureFields, GridSides {
     std::vector<float> density, temperature, Lescale;
-    UnboundedSpectrum sigma_a{1}, sigma_s{1};
     std::optional<IlluminantSpectrum> Le;
-    float temperaturescale = 1;
-    std::optional<float> temperatureoffset, temperaturecutoff;
 
     static void describe(Fields<UniformGrid>& f) {
         f.about("Matter whose density is given at the centres of the cells of a box.");
-        f.field("nx", &UniformGrid::nx, "cells along x").in(1, 65536);
-        f.field("ny", &UniformGrid::ny, "cells along y").in(1, 65536);
-        f.field("nz", &UniformGrid::nz, "cells along z").in(1, 65536);
+        describe_sides(f);
         f.field("density", &UniformGrid::density, "nx ny nz densities, x running fastest")
             .at_least(0)
             .required();
         f.field("temperature", &UniformGrid::temperature,
                 "as many temperatures: what absorbs glows as a black body, whose maximum is 1")
             .unit("K");
-        f.field("temperaturescale", &UniformGrid::temperaturescale, "factor on the temperatures");
-        f.field("temperatureoffset", &UniformGrid::temperatureoffset,
-                "subtracted from the temperatures before scaling")
-            .otherwise("temperaturecutoff, or 0");
-        f.field("temperaturecutoff", &UniformGrid::temperaturecutoff, "older name of temperatureoffset");
-        f.field("sigma_a", &UniformGrid::sigma_a,
-                "how much light is absorbed per length where the density is 1")
-            .at_least(0);
-        f.field("sigma_s", &UniformGrid::sigma_s,
-                "how much light is scattered per length where the density is 1")
-            .at_least(0);
+        describe_temperatures(f);
+        describe_cross_sections(f);
         f.field("Le", &UniformGrid::Le, "radiance of what absorbs, instead of temperatures");
         f.field("Lescale", &UniformGrid::Lescale, "nx ny nz factors on what is emitted")
             .at_least(0)
@@ -59,13 +44,12 @@ struct UniformGrid final : BoxMedium {
 
     void finish(const Node& node, BuildContext& context) {
         if (!place_box(node, context) || !check_counts(node, context)) return;
-        const Vec3i size{nx, ny, nz};
+        const Vec3i size = sides();
         density_ = SampledGrid<float>(size, std::move(density));
         if (!temperature.empty()) temperature_ = SampledGrid<float>(size, std::move(temperature));
         if (!Lescale.empty()) glow_scale_ = SampledGrid<float>(size, std::move(Lescale));
         if (Le && !Le->value.is_black())
             emitted_ = Le->value.scaled(Le->value.light_scale(context.color_mode));
-        offset_ = temperatureoffset.value_or(temperaturecutoff.value_or(0));
         glow_ = Glow(context.color_mode);
         // Fine enough to see the empty parts, coarse enough to cross quickly.
         constexpr int most_cells = 32;
@@ -85,16 +69,15 @@ struct UniformGrid final : BoxMedium {
         if (!is_emissive()) return point;
         const float s = glow_scale_.empty() ? 1 : glow_scale_.lookup(place);
         if (!(s > 0)) return point;
-        point.Le = temperature_.empty()
-                       ? c.Le * s
-                       : glow_.eval((temperature_.lookup(place) - offset_) * temperaturescale, lambda) * s;
+        point.Le =
+            temperature_.empty() ? c.Le * s : glow_.eval(kelvin(temperature_.lookup(place)), lambda) * s;
         return point;
     }
     bool is_emissive() const override { return !temperature_.empty() || !emitted_.is_black(); }
 
   private:
     bool check_counts(const Node& node, BuildContext& context) const {
-        const auto wanted = static_cast<std::int64_t>(nx) * ny * nz;
+        const auto wanted = cell_count();
         bool is_right = true;
         auto check = [&](std::string_view name, const std::vector<float>& values) {
             if (values.empty() || static_cast<std::int64_t>(values.size()) == wanted) return;
@@ -123,7 +106,6 @@ struct UniformGrid final : BoxMedium {
     SampledGrid<float> density_, temperature_, glow_scale_;
     SpectrumValue emitted_;
     Glow glow_{ColorMode::spectral};
-    float offset_ = 0;
 };
 
 } // namespace
