@@ -1,13 +1,35 @@
 /// The walk of the path tracer, for integrators that are one where nothing fills space.
 #pragma once
 
+#include "integrators/integrator.h"
 #include "integrators/path_context.h"
+#include "integrators/weights.h"
 
 namespace alhazen {
 
 struct PathRules {
     int maxdepth = 5;
     bool regularize = false; ///< widen narrow lobes after the first rough bounce
+};
+
+/// An integrator that follows paths by these rules.
+struct PathIntegrator : Integrator, PathRules {
+    LightSampler lightsampler = LightSampler::bvh;
+
+    std::string light_sampler() const override {
+        return FieldType<LightSampler>::choices()[std::size_t(lightsampler)];
+    }
+
+  protected:
+    template <class T>
+    static void describe_path(Fields<T>& f) {
+        f.field("maxdepth", &T::maxdepth,
+                "bounces (and scatterings, in media) of a path at most; 0 shows lights only")
+            .in(0, 10000);
+        f.field("regularize", &T::regularize,
+                "widen narrow lobes after the first rough bounce: less noise, a little blur");
+        f.field("lightsampler", &T::lightsampler, "how the light to sample is chosen");
+    }
 };
 
 /// The radiance arriving against the ray, from surfaces: one light and one direction of the BSDF are sampled

@@ -14,31 +14,18 @@ namespace alhazen {
 
 namespace {
 
-struct VolPath final : Integrator {
-    int maxdepth = 5;
-    bool regularize = false;
-    LightSampler lightsampler = LightSampler::bvh;
-
+struct VolPath final : PathIntegrator {
     static void describe(Fields<VolPath>& f) {
         f.about("Path tracer for surfaces and participating media, with next event estimation, multiple "
-                "importance "
-                "sampling over techniques and wavelengths, and Russian roulette.");
-        f.field("maxdepth", &VolPath::maxdepth,
-                "bounces and scatterings of a path at most; 0 shows lights only")
-            .in(0, 10000);
-        f.field("regularize", &VolPath::regularize,
-                "widen narrow lobes after the first rough bounce: less noise, a little blur");
-        f.field("lightsampler", &VolPath::lightsampler, "how the light to sample is chosen");
+                "importance sampling over techniques and wavelengths, and Russian roulette.");
+        describe_path(f);
     }
 
-    std::string light_sampler() const override {
-        return FieldType<LightSampler>::choices()[std::size_t(lightsampler)];
-    }
     bool sees_media() const override { return true; }
     bool sees_subsurface() const override { return true; }
 
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
-        if (!path.scene.has_media()) return trace_path({maxdepth, regularize}, ray, path);
+        if (!path.scene.has_media()) return trace_path(*this, ray, path);
         return trace_through_media(ray, path);
     }
 
