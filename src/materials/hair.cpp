@@ -255,6 +255,10 @@ struct Hair final : Material {
         if ((sigma_a || reflectance) && has_pigments)
             ignore(eumelanin ? "eumelanin" : "pheomelanin", sigma_a ? "sigma_a" : "reflectance");
         if (!sigma_a && !reflectance && !has_pigments) eumelanin = FloatTexture(1.3f);
+        auto is_even = [](const std::optional<FloatTexture>& pigment) {
+            return !pigment || pigment->is_constant();
+        };
+        if (is_even(eumelanin) && is_even(pheomelanin)) even_pigments_ = pigments(TexturePoint({}, {}, {}));
     }
 
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
@@ -282,13 +286,19 @@ struct Hair final : Material {
             return map(reflectance->eval(at, lambda),
                        [&](float c) { return sqr(std::log(std::clamp(c, 1e-6f, 1.0f)) / fit); });
         }
-        // Absorption of the two pigments (d'Eon et al. 2011).
-        const Vec3 brown =
-            Vec3(0.419f, 0.697f, 1.37f) * (eumelanin ? std::max(0.0f, eumelanin->eval(at)) : 0);
-        const Vec3 red =
-            Vec3(0.187f, 0.4f, 1.05f) * (pheomelanin ? std::max(0.0f, pheomelanin->eval(at)) : 0);
-        return SpectrumValue::unbounded_rgb(srgb_space(), brown + red).eval(lambda);
+        return (even_pigments_ ? *even_pigments_ : pigments(at)).eval(lambda);
     }
+    // Absorption of the two pigments (d'Eon et al. 2011).
+    SpectrumValue pigments(const TexturePoint& at) const {
+        auto amount = [&](const std::optional<FloatTexture>& pigment) {
+            return pigment ? std::max(0.0f, pigment->eval(at)) : 0;
+        };
+        return SpectrumValue::unbounded_rgb(srgb_space(),
+                                            Vec3(0.419f, 0.697f, 1.37f) * amount(eumelanin) +
+                                                Vec3(0.187f, 0.4f, 1.05f) * amount(pheomelanin));
+    }
+
+    std::optional<SpectrumValue> even_pigments_; ///< where they are the same everywhere: fitting takes time
 };
 
 } // namespace

@@ -59,7 +59,10 @@ struct Curve final : Shape {
             .at_least(0)
             .unit("scene units")
             .otherwise("width");
-        f.field("splitdepth", &Curve::splitdepth, "each segment becomes 2 to this power primitives")
+        f.field("splitdepth", &Curve::splitdepth,
+                "each segment becomes up to 2 to this power primitives; fewer where these would be hardly "
+                "longer than "
+                "wide")
             .in(0, 10);
         describe_common(f);
         const std::vector<Vec3> wave{{-1, 0, 0}, {-0.5f, 1, 0.3f}, {0.4f, -1, -0.2f}, {1, 0.2f, 0.5f}};
@@ -101,17 +104,18 @@ struct Curve final : Shape {
         const CurveSegment& segment;
         float u0, u1;
     };
-    std::uint32_t parts() const { return 1u << splitdepth; }
+    std::uint32_t parts() const { return 1u << depth_; }
     Part part_of(std::uint32_t primitive) const {
         const float size = 1 / static_cast<float>(parts());
         const auto i = static_cast<float>(primitive & (parts() - 1));
-        return {segments_[primitive >> splitdepth], i * size, (i + 1) * size};
+        return {segments_[primitive >> depth_], i * size, (i + 1) * size};
     }
     Ray into_object(const Ray& ray) const { return is_in_world_ ? ray : world_from_object_.inverse_ray(ray); }
 
     void check_points(const Node& node, BuildContext& context) const;
     void check_normals(const Node& node, BuildContext& context);
     void make_segments();
+    int useful_depth() const;
     void place(const Transform& world_from_object, bool is_similarity, bool reverse);
     CubicBezier points_of(std::size_t segment) const;
     std::size_t segment_count() const {
@@ -119,6 +123,7 @@ struct Curve final : Shape {
         return basis == CurveBasis::bezier ? (P.size() - 1) / d : P.size() - d;
     }
 
+    int depth_ = 0;                      ///< each segment is 2 to this power primitives
     std::vector<CurveSegment> segments_; ///< in the world if is_in_world_, else in object space
     bool is_in_world_ = false;
     Transform world_from_object_; ///< of the segments: the identity when they are in the world
@@ -198,6 +203,23 @@ void Curve::make_segments() {
         s.normal0 = normalize(N[i]);
         s.normal1 = normalize(N[i + 1]);
     }
+    depth_ = useful_depth();
+}
+
+// The boxes of parts that are hardly longer than wide are no tighter than those of longer ones, and many
+// more.
+int Curve::useful_depth() const {
+    constexpr float shortest = 3; // widths
+    float longest = 0;
+    for (const CurveSegment& s : segments_) {
+        float length_of_segment = 0;
+        for (std::size_t i = 1; i < s.points.size(); ++i)
+            length_of_segment += length(s.points[i] - s.points[i - 1]);
+        longest = std::max(longest, length_of_segment / std::max(s.width0, s.width1));
+    }
+    int depth = 0;
+    while (depth < splitdepth && longest > shortest * static_cast<float>(2 << depth)) ++depth;
+    return depth;
 }
 
 // Where the transformation only turns, moves and resizes, the segments are put into the world, so that rays

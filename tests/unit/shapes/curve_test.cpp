@@ -36,7 +36,7 @@ TEST(Curve, StraightStrandIsABandThatFacesTheRay) {
         auto strand =
             make("curve", {points({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}), make_float("width0", 0.2f),
                            make_float("width1", 0.4f), make_string("type", type)});
-        EXPECT_EQ(strand->primitive_count(), 8u);
+        EXPECT_EQ(strand->primitive_count(), 2u); // more would be shorter than three widths
         Rng rng(1);
         for (int i = 0; i < 2000; ++i) {
             const float x = 4 * rng.uniform() - 0.5f, y = 0.6f * rng.uniform() - 0.3f;
@@ -233,7 +233,7 @@ TEST(Curve, AreaIsLengthTimesWidth) {
     auto strand = make("curve", {points({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}),
                                  make_float("width0", 0.1f), make_float("width1", 0.3f)});
     float area = 0;
-    for (std::uint32_t i = 0; i < 8; ++i) area += strand->area(i);
+    for (std::uint32_t i = 0; i < strand->primitive_count(); ++i) area += strand->area(i);
     EXPECT_NEAR(area, 0.6f, 1e-5f);
     EXPECT_FALSE(strand->can_be_light());
 }
