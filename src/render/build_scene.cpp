@@ -1,6 +1,7 @@
 #include "render/build_scene.h"
 
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -108,32 +109,39 @@ class SceneBuilder {
     // Takes the node's shapes that move out of it, into objects that are placed by their motion: those that
     // follow each other and move in the same way into one.
     void move_shapes(ObjectNode& node, std::vector<PlacedObject>& instances) {
-        auto moves = [](const ShapeNode& shape) { return shape.world_from_object.is_animated(); };
-        auto& shapes = node.shapes;
-        for (auto first = std::find_if(shapes.begin(), shapes.end(), moves); first != shapes.end();
-             first = std::find_if(first, shapes.end(), moves)) {
-            const Motion motion = first->world_from_object;
-            const auto last = std::find_if(first, shapes.end(), [&](const ShapeNode& shape) {
-                return !(shape.world_from_object == motion);
-            });
-            ObjectNode inner;
-            inner.place = first->node.place;
-            inner.shapes.assign(std::make_move_iterator(first), std::make_move_iterator(last));
-            first = shapes.erase(first, last);
-            for (ShapeNode& shape : inner.shapes) {
-                shape.world_from_object = {};
-                if (shape.area_light < 0) continue;
-                context_.messages.add_unsupported(shape.node.place,
-                                                  "area lights that move are not supported yet",
-                                                  "the shape, which is dark");
-                shape.area_light = -1;
+        std::vector<ShapeNode> still;
+        std::vector<std::pair<Motion, ObjectNode>> moving;
+        bool follows = false; // the shape before moves, too
+        for (ShapeNode& shape : node.shapes) {
+            const Motion motion = std::exchange(shape.world_from_object, {});
+            if (!motion.is_animated()) {
+                shape.world_from_object = motion;
+                still.push_back(std::move(shape));
+                follows = false;
+                continue;
             }
-            PlacedObject placed;
-            moving_.push_back(make_object(inner));
-            placed.object = moving_.back().get();
-            place_instance(placed, motion, inner.place);
-            if (!placed.object->bounds().empty()) instances.push_back(placed);
+            if (!follows || !(moving.back().first == motion)) moving.push_back({motion, {}});
+            moving.back().second.shapes.push_back(std::move(shape));
+            follows = true;
         }
+        node.shapes = std::move(still);
+        for (auto& [motion, inner] : moving) instances.push_back(moving_instance(motion, inner));
+        std::erase_if(instances, [](const PlacedObject& placed) { return placed.object->bounds().empty(); });
+    }
+
+    PlacedObject moving_instance(const Motion& motion, ObjectNode& inner) {
+        for (ShapeNode& shape : inner.shapes) {
+            if (shape.area_light < 0) continue;
+            context_.messages.add_unsupported(shape.node.place, "area lights that move are not supported yet",
+                                              "the shape, which is dark");
+            shape.area_light = -1;
+        }
+        inner.place = inner.shapes.front().node.place;
+        PlacedObject placed;
+        moving_.push_back(make_object(inner));
+        placed.object = moving_.back().get();
+        place_instance(placed, motion, inner.place);
+        return placed;
     }
 
     // Shapes load in parallel; messages and lights keep the order of the file.
