@@ -106,7 +106,8 @@ std::optional<MovingTransform::Parts> MovingTransform::take_apart(const Matrix4&
 std::optional<MovingTransform> MovingTransform::make(const Matrix4& start, const Matrix4& end,
                                                      float start_time, float end_time) {
     const auto a = take_apart(start), b = take_apart(end);
-    if (!a || !b || (start.determinant3() < 0) != (end.determinant3() < 0)) return std::nullopt;
+    if (!(start_time < end_time) || !a || !b || (start.determinant3() < 0) != (end.determinant3() < 0))
+        return std::nullopt;
     MovingTransform r;
     r.start_ = *a;
     r.end_ = *b;
@@ -119,8 +120,11 @@ std::optional<MovingTransform> MovingTransform::make(const Matrix4& start, const
 }
 
 Transform MovingTransform::at(float time) const {
-    const double t =
-        std::clamp((static_cast<double>(time) - start_time_) / (end_time_ - start_time_), 0.0, 1.0);
+    const double passed = static_cast<double>(time) - start_time_;
+    return at_fraction(std::clamp(passed / (end_time_ - start_time_), 0.0, 1.0));
+}
+
+Transform MovingTransform::at_fraction(double t) const {
     const Matrix4 rotation = matrix_of(slerp(start_.rotation, end_.rotation, angle_, t));
     const Matrix4 stretch =
         combine(start_.stretch, end_.stretch, [t](double a, double b) { return a * (1 - t) + b * t; });
@@ -135,8 +139,7 @@ Bounds3 MovingTransform::bounds(const Bounds3& box) const {
     Bounds3 all;
     if (box.empty()) return all;
     constexpr int steps = 32;
-    for (int i = 0; i <= steps; ++i)
-        all.extend(at(static_cast<float>(start_time_ + (end_time_ - start_time_) * i / steps)).bounds(box));
+    for (int i = 0; i <= steps; ++i) all.extend(at_fraction(static_cast<double>(i) / steps).bounds(box));
     double farthest = 0;
     for (int i = 0; i < 8; ++i) farthest = std::max(farthest, length(Vec3d(box.corner(i))));
     // Quaternions turn by half of the angle.

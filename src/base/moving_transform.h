@@ -18,7 +18,7 @@ struct Quaternion {
 class MovingTransform {
   public:
     /// nullopt when a matrix is singular or not affine, or when one mirrors and the other does not, so that
-    /// on the way everything would be flat. start_time < end_time (s).
+    /// on the way everything would be flat; or where not start_time < end_time (s).
     static std::optional<MovingTransform> make(const Matrix4& start, const Matrix4& end, float start_time,
                                                float end_time);
 
@@ -34,6 +34,8 @@ class MovingTransform {
         Quaternion rotation;
         Matrix4 stretch; ///< symmetric, and negative where the matrix mirrors
     };
+    /// t: 0 at the start, 1 at the end.
+    Transform at_fraction(double t) const;
     static std::optional<Parts> take_apart(const Matrix4& matrix);
 
     Parts start_, end_;

@@ -163,7 +163,7 @@ std::string LensSystem::focus(double distance) {
     return "";
 }
 
-std::optional<LensRay> LensSystem::trace(Vec3d o, Vec3d d, const ApertureMask* mask) const {
+std::optional<LensRay> LensSystem::trace(Vec3d o, Vec3d d, const ApertureMask* mask, double opened) const {
     LensRay ray{o, normalize(d)};
     double z = 0;
     for (std::size_t i = surfaces_.size(); i-- > 0;) {
@@ -177,8 +177,9 @@ std::optional<LensRay> LensSystem::trace(Vec3d o, Vec3d d, const ApertureMask* m
         if (s.is_stop() && mask) {
             ray.weight = mask->at({ray.o.x / s.opening, ray.o.y / s.opening});
             if (!(ray.weight > 0)) return std::nullopt;
-        } else if (!(ray.o.x * ray.o.x + ray.o.y * ray.o.y <= s.opening * s.opening)) {
-            return std::nullopt;
+        } else {
+            const double opening = s.is_stop() ? s.opening * opened : s.opening;
+            if (!(ray.o.x * ray.o.x + ray.o.y * ray.o.y <= opening * opening)) return std::nullopt;
         }
         if (s.is_stop()) continue;
         const double ahead = i > 0 ? surfaces_[i - 1].eta : 1;
@@ -198,26 +199,40 @@ ExitPupil::ExitPupil(const LensSystem& lens, double film_radius)
     });
 }
 
+// A small stop would fall between the places that are tried: it is looked for with the stop wider open at
+// first, and then less and less, within where the wider one was found.
+ExitPupil::Rectangle ExitPupil::bound(const LensSystem& lens, double film_lo, double film_hi) {
+    const double reach = 1.5 * lens.rear_opening();
+    Rectangle found{-reach, reach, reach};
+    const LensSurface* stop = lens.stop();
+    for (double opened = stop ? std::max(1.0, lens.rear_opening() / (4 * stop->opening)) : 1;;
+         opened = std::max(1.0, opened / 4)) {
+        found = bound(lens, film_lo, film_hi, found, opened);
+        if (opened == 1 || !(found.hi > found.lo)) return found;
+    }
+}
+
 // Rays from the ring, on the x axis, to a grid over the half y >= 0 of the last surface and its surroundings
 // (what bulges towards the film is seen larger, in its vertex's plane); the margin is that of two cells of
 // the grid.
-ExitPupil::Rectangle ExitPupil::bound(const LensSystem& lens, double film_lo, double film_hi) {
+ExitPupil::Rectangle ExitPupil::bound(const LensSystem& lens, double film_lo, double film_hi,
+                                      const Rectangle& within, double opened) {
     constexpr int columns = 256, rows = 128;
-    const double reach = 1.5 * lens.rear_opening(), cell = reach / rows;
+    const double width = (within.hi - within.lo) / columns, height = within.half / rows;
     constexpr double inf = std::numeric_limits<double>::infinity();
     Rectangle r{inf, -inf, -inf};
     for (int row = rows; row-- > 0;)
         for (int column = 0; column < columns; ++column) {
-            const Vec3d p{-reach + (column + 0.5) * cell, (row + 0.5) * cell, lens.rear_z()};
+            const Vec3d p{within.lo + (column + 0.5) * width, (row + 0.5) * height, lens.rear_z()};
             if (p.x >= r.lo && p.x <= r.hi && p.y <= r.half) continue;
             // Places in the ring by the golden ratio, so that all come up around each point of the grid.
             const double part = std::fmod((row * columns + column) * std::numbers::phi, 1.0);
             const Vec3d film{film_lo + (film_hi - film_lo) * part, 0, 0};
-            if (!lens.trace(film, p - film)) continue;
+            if (!lens.trace(film, p - film, nullptr, opened)) continue;
             r = {std::min(r.lo, p.x), std::max(r.hi, p.x), std::max(r.half, p.y)};
         }
     if (r.lo > r.hi) return {};
-    return {r.lo - 2 * cell, r.hi + 2 * cell, r.half + 2 * cell};
+    return {r.lo - 2 * width, r.hi + 2 * width, r.half + 2 * height};
 }
 
 std::optional<ExitPupil::Sample> ExitPupil::sample(Vec2d film, Vec2 u) const {

@@ -63,7 +63,8 @@ class LensSystem {
 
     /// A ray from the film's side (d.z > 0) through all surfaces to the scene's side; nullopt where it is
     /// stopped. A mask takes the place of the stop's round opening.
-    std::optional<LensRay> trace(Vec3d o, Vec3d d, const ApertureMask* mask = nullptr) const;
+    std::optional<LensRay> trace(Vec3d o, Vec3d d, const ApertureMask* mask = nullptr,
+                                 double opened = 1) const;
 
   private:
     std::vector<LensSurface> surfaces_;
@@ -91,6 +92,8 @@ class ExitPupil {
     };
     static constexpr std::size_t rings = 64;
     static Rectangle bound(const LensSystem& lens, double film_lo, double film_hi);
+    static Rectangle bound(const LensSystem& lens, double film_lo, double film_hi, const Rectangle& within,
+                           double opened);
 
     std::vector<Rectangle> rectangles_;
     double film_radius_ = 1, z_ = 0;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "base/messages.h"
+#include "base/moving_transform.h"
 #include "base/transform.h"
 #include "color/wavelengths.h"
 #include "describe/grid_file.h"
@@ -39,8 +41,10 @@ struct BuildContext {
     float displacement_edge_scale = 1; ///< displaced meshes: factor of their edges' lengths
     /// Shutter open to close: film sensors (seconds).
     float exposure_time = 1;
-    float shutter_open = 0;           ///< when (seconds): what moves and is asked for its place once
-    Transform world_from_camera = {}; ///< films
+    float shutter_open = 0; ///< when (seconds): what moves and is asked for its place once
+    /// Films; where the camera moves, camera_movement says how.
+    Transform world_from_camera = {};
+    std::shared_ptr<const MovingTransform> camera_movement = {};
 
     /// An existing path for a file a scene names: absolute, or relative to base_folder.
     std::filesystem::path resolve(const std::string& name) const {

@@ -16,21 +16,26 @@ std::string FieldDoc::range_text() const {
 
 namespace {
 
-bool in_range(const FieldDoc& field, double v) {
+// Limits are rounded as values are, so that a limit itself is within.
+bool in_range(const FieldDoc& field, float v) {
+    const auto lowest = static_cast<float>(field.lowest), highest = static_cast<float>(field.highest);
+    return (field.lowest_is_excluded ? v > lowest : v >= lowest) && v <= highest;
+}
+bool in_range(const FieldDoc& field, int v) {
     return (field.lowest_is_excluded ? v > field.lowest : v >= field.lowest) && v <= field.highest;
 }
 
 // The first number that is not finite or out of range.
 struct Culprit {
-    double value;
+    std::string value;
     std::size_t index;
     bool is_finite;
 };
 
 std::optional<Culprit> find_culprit(const FieldDoc& field, const Parameter& p) {
-    auto check = [&](double v, std::size_t i) -> std::optional<Culprit> {
-        if (!std::isfinite(v)) return Culprit{v, i, false};
-        if (field.has_range() && !in_range(field, v)) return Culprit{v, i, true};
+    auto check = [&](auto v, std::size_t i) -> std::optional<Culprit> {
+        if (!std::isfinite(v)) return Culprit{number_text(static_cast<double>(v)), i, false};
+        if (field.has_range() && !in_range(field, v)) return Culprit{fmt::format("{}", v), i, true};
         return std::nullopt;
     };
     std::optional<Culprit> bad;
@@ -38,10 +43,10 @@ std::optional<Culprit> find_culprit(const FieldDoc& field, const Parameter& p) {
         using E = typename std::decay_t<decltype(values)>::value_type;
         for (std::size_t i = 0; i < values.size() && !bad; ++i) {
             if constexpr (std::is_same_v<E, float> || std::is_same_v<E, int>) {
-                bad = check(static_cast<double>(values[i]), i);
+                bad = check(values[i], i);
             } else if constexpr (std::is_same_v<E, Vec2> || std::is_same_v<E, Vec3>) {
                 for (int c = 0; c < (std::is_same_v<E, Vec2> ? 2 : 3) && !bad; ++c)
-                    bad = check(static_cast<double>(values[i][c]), i);
+                    bad = check(values[i][c], i);
             }
         }
     };

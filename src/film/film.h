@@ -40,7 +40,7 @@ struct Film {
     /// one only.
     virtual bool wants_surfaces() const { return false; }
     /// What a sample sees first, if there is a surface.
-    virtual void add_surface(Vec2i /*pixel*/, const VisibleSurface&, const Wavelengths&) {}
+    virtual void add_surface(Vec2i /*pixel*/, const VisibleSurface&) {}
     /// The wavelengths of a sample; u in [0, 1). Spectral mode only.
     virtual Wavelengths sample_wavelengths(float u) const { return Wavelengths::sample_visible(u); }
 
@@ -68,7 +68,7 @@ struct Film {
     virtual Image image() const = 0;
 };
 
-/// finish() takes context.exposure_time and world_from_camera.
+/// finish() takes context.exposure_time, world_from_camera and camera_movement.
 const KindList<Film>& film_kinds();
 
 } // namespace alhazen

@@ -34,11 +34,16 @@ struct RunningVariance {
 struct GBufferFilm final : PictureFilm {
     FeatureSpace coordinatesystem = FeatureSpace::camera;
 
+    /// Places far away want more digits than 16 bits have.
+    GBufferFilm() { savefp16 = false; }
+
     static void describe(Fields<GBufferFilm>& f) {
-        f.about("A picture with what the camera sees first, for denoising and compositing: albedo (Albedo), "
-                "place (P), surface parameters (u, v), change of depth from pixel to pixel (dzdx, dzdy), "
-                "geometric and shading normal (N, Ns), variance of the samples, and that over their mean "
-                "(Variance, RelativeVariance). OpenEXR files hold all channels, other files the colour.");
+        f.about(
+            "A picture with what the camera sees first, for denoising and compositing: albedo (Albedo), "
+            "place (P), surface parameters (u, v), change of depth from pixel to pixel (dzdx, dzdy), "
+            "geometric and shading normal (N, Ns), variance of the samples, and that over their mean "
+            "(Variance, RelativeVariance; of what camera paths find, without light that is brought to the "
+            "pixel by others, as bdpt does). OpenEXR files hold all channels, other files the colour.");
         describe_picture(f);
         f.field("coordinatesystem", &GBufferFilm::coordinatesystem,
                 "of places and normals: the camera's, looking along +z, or the world's");
@@ -53,7 +58,6 @@ struct GBufferFilm final : PictureFilm {
     void start(ColorMode mode) override {
         PictureFilm::start(mode);
         const std::size_t count = pixel_count();
-        check_image_size(pixels().width(), pixels().height(), 3 + static_cast<long long>(names().size()));
         features_ = BigArray<Features>(count);
         parallel_ranges(count, 16384, [this](std::size_t begin, std::size_t end) {
             std::fill(features_.data() + begin, features_.data() + end, Features{});
@@ -64,18 +68,11 @@ struct GBufferFilm final : PictureFilm {
         features_[index(pixel)].color.add(Vec3d(output_color(measured(L, lambda))));
     }
     bool wants_surfaces() const override { return true; }
-    void add_surface(Vec2i pixel, const VisibleSurface& surface, const Wavelengths& lambda) override {
-        Features& f = features_[index(pixel)];
-        f.count += 1;
-        f.p += Vec3d(output_from_world_.point(surface.p));
-        f.n += Vec3d(output_from_world_.normal(surface.n));
-        f.ns += Vec3d(output_from_world_.normal(surface.ns));
-        f.u += static_cast<double>(surface.uv.x);
-        f.v += static_cast<double>(surface.uv.y);
-        f.dzdx += static_cast<double>(output_from_world_.vector(surface.dpdx).z);
-        f.dzdy += static_cast<double>(output_from_world_.vector(surface.dpdy).z);
-        f.albedo += Vec3d(albedo_color(surface.albedo, lambda));
+    void add_surface(Vec2i pixel, const VisibleSurface& surface) override {
+        if (camera_movement_) return add(pixel, surface, camera_movement_->at(surface.time).inverse());
+        add(pixel, surface, output_from_world_);
     }
+    int channels() const override { return 3 + static_cast<int>(names().size()); }
     Image image() const override;
 
   private:
@@ -114,7 +111,21 @@ struct GBufferFilm final : PictureFilm {
     /// As if lit by the colour space's white.
     Vec3 albedo_color(Spectrum albedo, const Wavelengths& lambda) const;
 
+    void add(Vec2i pixel, const VisibleSurface& surface, const Transform& output_from_world) {
+        Features& f = features_[index(pixel)];
+        f.count += 1;
+        f.p += Vec3d(output_from_world.point(surface.p));
+        f.n += Vec3d(output_from_world.normal(surface.n));
+        f.ns += Vec3d(output_from_world.normal(surface.ns));
+        f.u += static_cast<double>(surface.uv.x);
+        f.v += static_cast<double>(surface.uv.y);
+        f.dzdx += static_cast<double>(output_from_world.vector(surface.dpdx).z);
+        f.dzdy += static_cast<double>(output_from_world.vector(surface.dpdy).z);
+        f.albedo += Vec3d(albedo_color(surface.albedo, surface.lambda));
+    }
+
     Transform output_from_world_;
+    std::shared_ptr<const MovingTransform> camera_movement_; ///< instead, where the camera moves
     BigArray<Features> features_;
 };
 

@@ -64,7 +64,7 @@ void PictureFilm::finish(const Node& node, BuildContext& context) {
         return;
     }
     try {
-        check_image_size(pixels_.width(), pixels_.height(), 3);
+        check_image_size(pixels_.width(), pixels_.height(), channels());
     } catch (const std::runtime_error& e) {
         context.messages.add_error(place_of(node, "xresolution"), e.what());
         return;
@@ -101,7 +101,7 @@ void PictureFilm::set_pixels(Rect2i pixels) {
 }
 
 void PictureFilm::start(ColorMode mode) {
-    check_image_size(pixels_.width(), pixels_.height(), 3);
+    check_image_size(pixels_.width(), pixels_.height(), channels());
     splats_.clear();
     output_from_sensor_ = sensor_.output_from_sensor(*space_, mode);
     const std::size_t count = pixel_count();

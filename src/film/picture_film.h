@@ -132,6 +132,8 @@ class PictureFilm : public Film {
             "transfer", &T::transfer,
             "how 8-bit files store values: by the sRGB curve, or linear, as they are (like MATLAB's imshow)");
     }
+    /// Of the picture.
+    virtual int channels() const { return 3; }
     /// Exposure; scaled down to the limit, if there is one.
     Vec3 measured(Spectrum L, const Wavelengths& lambda) const {
         const Vec3 rgb = sensor_.to_sensor_rgb(L, lambda);

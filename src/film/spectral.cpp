@@ -43,6 +43,10 @@ struct SpectralFilm final : PictureFilm {
         if (!(lambdamin < lambdamax))
             context.messages.add_error(place, fmt::format("lambdamin ({} nm) must be below lambdamax ({} nm)",
                                                           lambdamin, lambdamax));
+        else if (nbuckets > 1 && channel_name(0) == channel_name(1))
+            context.messages.add_error(
+                place, "the ranges of wavelengths are so narrow that their names would be the "
+                       "same; they must be at least 0.001 nm wide");
         if (context.color_mode == ColorMode::rgb)
             context.messages.add_error(
                 node.place, "film \"spectral\" needs spectral colours, but the picture is made in RGB; "
@@ -52,7 +56,6 @@ struct SpectralFilm final : PictureFilm {
     void start(ColorMode mode) override {
         PictureFilm::start(mode);
         const std::size_t count = pixel_count() * static_cast<std::size_t>(nbuckets);
-        check_image_size(pixels().width(), pixels().height(), 3 + nbuckets);
         sums_ = BigArray<Sums>(count);
         parallel_ranges(count, 16384, [this](std::size_t begin, std::size_t end) {
             std::fill(sums_.data() + begin, sums_.data() + end, Sums{});
@@ -77,6 +80,7 @@ struct SpectralFilm final : PictureFilm {
         }
     }
     bool takes_splats() const override { return false; }
+    int channels() const override { return 3 + nbuckets; }
     Image image() const override;
 
   private:

@@ -170,6 +170,9 @@ class Pyramid {
         C *= inv_f;
         const float determinant = 4 * A * C - sqr(B);
         const float rx = 2 * std::sqrt(C / determinant), ry = 2 * std::sqrt(A / determinant);
+        // Beyond what integers can count.
+        if (!(std::abs(center.x) + rx < 1e9f && std::abs(center.y) + ry < 1e9f))
+            return bilinear(level, uv, evaluate);
         R sum{};
         float weights = 0;
         for (int y = static_cast<int>(std::ceil(center.y - ry));

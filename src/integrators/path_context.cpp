@@ -29,6 +29,8 @@ void PathContext::see(const Ray& ray, const Hit& hit) {
     if (!bsdf) return;
     auto facing = [&](Vec3 n) { return dot(n, hit.wo) < 0 ? -n : n; };
     surface->is_there = true;
+    surface->time = ray.time;
+    surface->lambda = its_lambda;
     surface->p = hit.p;
     surface->n = facing(hit.ng);
     surface->ns = facing(hit.ns);

@@ -21,11 +21,11 @@ double length_of(double x, double y) {
     return std::sqrt(x * x + y * y);
 }
 
-/// Integral of f over depths from 0 to where exp(-depth) is nothing, by the midpoint rule in steps that grow
-/// with the depth, beginning as small as the radius wants.
+/// Integral of f over depths from 0 to where exp(-decay depth) is nothing, by the midpoint rule in steps that
+/// grow with the depth, beginning as small as the radius wants.
 template <class F>
-double over_depth(double r, int samples, F f) {
-    constexpr double deepest = 40;
+double over_depth(double r, double decay, int samples, F f) {
+    const double deepest = 40 / decay;
     const double step = std::log1p(deepest / r) / samples;
     double sum = 0;
     for (int i = 0; i < samples; ++i) {
@@ -53,7 +53,7 @@ double single_scattering(const ScatteringMatter& matter, double r, int samples) 
     const HenyeyGreenstein phase(static_cast<float>(matter.g));
     // Light from above this depth meets the surface beyond the critical angle.
     const double t_critical = r * std::sqrt(std::max(0.0, matter.eta * matter.eta - 1));
-    return over_depth(r, samples, [&](double beyond) {
+    return over_depth(r, 1, samples, [&](double beyond) {
         const double depth = t_critical + beyond, distance = length_of(r, depth);
         const double cosine = depth / distance;
         // The beam's light came from above; the cosine is that of turning back.
@@ -98,7 +98,7 @@ struct Diffusion {
 
 double multiple_scattering(const Diffusion& d, double r, int samples) {
     const double reduced_albedo = d.scattering / d.extinction;
-    return reduced_albedo * reduced_albedo * over_depth(r, samples, [&](double depth) {
+    return reduced_albedo * reduced_albedo * over_depth(r, d.extinction, samples, [&](double depth) {
                return d.extinction * std::exp(-d.extinction * depth) * d.exitance(depth, r);
            });
 }
@@ -117,8 +117,12 @@ DiffusionTable::DiffusionTable(float g, float eta)
       albedos_(albedo_count), radii_(radius_count), radial_(albedo_count * radius_count),
       cdf_(radial_.size()), effective_(albedo_count) {
     // Dense where profiles change: at small radii, and where nearly all light is scattered.
+    // The largest is 200 lengths over which light forgets its direction.
     radii_[1] = 2.5e-3f;
-    for (std::size_t i = 2; i < radius_count; ++i) radii_[i] = radii_[i - 1] * 1.2f;
+    const double largest = 200 / (1 - std::max(0.0, static_cast<double>(g)));
+    const double growth = std::pow(largest / 2.5e-3, 1.0 / (radius_count - 2));
+    for (std::size_t i = 2; i < radius_count; ++i)
+        radii_[i] = static_cast<float>(2.5e-3 * std::pow(growth, static_cast<double>(i - 1)));
     for (std::size_t i = 0; i < albedo_count; ++i) {
         const double x = static_cast<double>(i) / (albedo_count - 1);
         albedos_[i] = static_cast<float>(std::expm1(-8 * x) / std::expm1(-8));

@@ -61,7 +61,7 @@ struct MeasuredBsdf final : Bsdf {
     /// A direction that the surface is seen from: its tables among the data.
     struct View {
         View(const MeasuredData& data, Vec3 w)
-            : blend(blend_around(locate(data.phi, std::atan2(w.y, w.x)),
+            : blend(blend_around(locate(data.phi, data.azimuth_of(w)),
                                  locate(data.theta, std::atan2(std::hypot(w.x, w.y), w.z)),
                                  data.theta.size())),
               turned(data.is_isotropic ? std::atan2(w.y, w.x) : 0) {}

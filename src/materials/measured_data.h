@@ -25,6 +25,12 @@ struct MeasuredData {
     /// Solid angle per area of the square there.
     static float solid_angle(Vec2 u);
 
+    /// Of a direction, within the turn that phi covers.
+    float azimuth_of(Vec3 w) const {
+        const float azimuth = std::atan2(w.y, w.x);
+        return azimuth < phi.front() ? azimuth + 2 * pi : azimuth > phi.back() ? azimuth - 2 * pi : azimuth;
+    }
+
     bool is_isotropic = true;       ///< azimuths count from that of the direction seen from
     bool has_facet_factor = true;   ///< the spectra lack the factor ndf / (4 sigma)
     std::vector<float> theta, phi;  ///< of the directions seen from: one table of a series for each pair

@@ -33,9 +33,10 @@ struct Subsurface final : Material {
             "spread; others take it for clear matter, and say so. The method is photon beam diffusion "
             "(Habel, "
             "Christensen and Jarosz 2013), tabulated and sampled as in pbrt-v4. Its limits: light spreads as "
-            "it would beneath a plane of the same matter everywhere, whatever stands inside, so that where "
-            "things are thinner than light spreads some of it is lost; the farthest thousandth of the light "
-            "is left out; and matter that absorbs more than it scatters (juice) is better given as a "
+            "it would beneath a plane of the same matter everywhere, whatever stands inside, so that things "
+            "thinner than light spreads are too bright (a sheet up to twice, since each of its faces gives "
+            "out all of the light); the farthest thousandth of the light is left out; and matter that "
+            "absorbs more than it scatters (juice) is better given as a "
             "dielectric around a medium.");
         f.field("name", &Subsurface::name, "name of measured matter; its coefficients are per mm");
         f.field("sigma_a", &Subsurface::sigma_a, "how much light is absorbed per length")

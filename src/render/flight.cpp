@@ -169,7 +169,7 @@ void Flight::add_finished() {
         Result& r = results_[added_ % ring_size];
         r.is_done = false;
         if (r.radiance.is_finite()) {
-            if (r.surface.is_there) world_.film->add_surface(r.pixel, r.surface, r.lambda);
+            if (r.surface.is_there) world_.film->add_surface(r.pixel, r.surface);
             world_.film->add(r.pixel, r.radiance, r.lambda, r.weight);
             continue;
         }

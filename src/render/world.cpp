@@ -71,21 +71,16 @@ const CameraNode* find_camera(const SceneDescription& description, const RenderS
     return nullptr;
 }
 
-std::unique_ptr<Camera> make_camera(const CameraNode& node, const SceneDescription& scene,
-                                    BuildContext& context) {
+std::unique_ptr<Camera> make_camera(const CameraNode& node, BuildContext& context) {
     const Motion& motion = node.world_from_camera;
-    if (!motion.is_animated()) {
-        context.world_from_node = Transform(motion.start);
-        return camera_kinds().make(node.node, context, "perspective");
-    }
-    auto movement = MovingTransform::make(motion.start, motion.end, scene.time_start, scene.time_end);
-    if (!movement) {
+    if (motion.is_animated() && !context.camera_movement) {
         context.messages.add_error(node.node.place, std::string(no_movement));
         return nullptr;
     }
-    context.world_from_node = {};
+    context.world_from_node = motion.is_animated() ? Transform() : Transform(motion.start);
     auto camera = camera_kinds().make(node.node, context, "perspective");
-    return camera ? make_moving_camera(std::move(camera), *movement) : nullptr;
+    return camera && motion.is_animated() ? make_moving_camera(std::move(camera), *context.camera_movement)
+                                          : std::move(camera);
 }
 
 // The shutter's times, which others need before the camera is built.
@@ -95,8 +90,10 @@ void read_shutter(const CameraNode& camera, BuildContext& context) {
         auto* v = p ? std::get_if<std::vector<float>>(&p->values) : nullptr;
         return v && v->size() == 1 ? v->front() : otherwise;
     };
-    context.shutter_open = number("shutteropen", 0);
-    context.exposure_time = number("shutterclose", 1) - context.shutter_open;
+    // As cameras do, which tell of it.
+    const auto [open, close] = std::minmax({number("shutteropen", 0), number("shutterclose", 1)});
+    context.shutter_open = open;
+    context.exposure_time = close - open;
 }
 
 // What the camera sees first is known of integrators that look from it.
@@ -120,8 +117,9 @@ void check_light_tracing(const World& world, const Node& integrator, const Camer
             camera.node.place,
             fmt::format(
                 "integrator \"{}\" joins paths from the lights with the camera, which is not possible with "
-                "camera \"{}\"; use a \"perspective\" or \"orthographic\" camera, or integrator \"path\"",
-                integrator.type, camera.node.type));
+                "camera \"{}\"{}; use a \"perspective\" or \"orthographic\" camera{}, or integrator \"path\"",
+                integrator.type, camera.node.type, world.camera->moves() ? " that moves like this" : "",
+                world.camera->moves() ? " that is only moved and turned" : ""));
     if ((splats || world.integrator->sets_pixels()) && world.film && !world.film->takes_splats())
         context.messages.add_error(
             film.place,
@@ -261,12 +259,17 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     if (!camera) camera = &default_camera;
     read_shutter(*camera, context);
     context.world_from_camera = Transform(camera->world_from_camera.start);
+    if (camera->world_from_camera.is_animated())
+        if (auto movement =
+                MovingTransform::make(camera->world_from_camera.start, camera->world_from_camera.end,
+                                      description.time_start, description.time_end))
+            context.camera_movement = std::make_shared<const MovingTransform>(*movement);
     world->film = make_film(description, settings, context);
     if (world->film) {
         context.film_resolution = world->film->resolution();
         context.film_diagonal = world->film->diagonal();
     }
-    world->camera = make_camera(*camera, description, context);
+    world->camera = make_camera(*camera, context);
     world->filter = filter_kinds().make(with_default(description.filter, "gaussian"), context, "gaussian");
     add_sampler(*world, description, settings, context);
     check_light_tracing(*world, description.integrator, *camera, description.film, context);

@@ -17,8 +17,8 @@ bool is_odd(float x) {
 }
 
 // 1 where floor(x) is even and -1 where it is odd, integrated twice from 0.
-float wave_integral(float x) {
-    const float y = x / 2 - std::floor(x / 2) - 0.5f;
+double wave_integral(double x) {
+    const double y = x / 2 - std::floor(x / 2) - 0.5;
     return x / 2 + y * (1 - 2 * std::abs(y));
 }
 
@@ -26,9 +26,12 @@ float wave_integral(float x) {
 float blurred_wave(float x, float r) {
     if (!(r > 0) || std::floor(x - r) == std::floor(x + r)) return is_odd(x) ? -1.0f : 1.0f;
     if (!(r < 1e4f)) return 0;
-    // Near the origin, where floats are fine.
-    x -= 2 * std::floor(x / 2);
-    return (wave_integral(x + r) - 2 * wave_integral(x) + wave_integral(x - r)) / sqr(r);
+    const double width = static_cast<double>(r);
+    // Near the origin, where numbers are fine.
+    const double from_even = static_cast<double>(x) - 2 * std::floor(static_cast<double>(x) / 2);
+    const double curvature =
+        wave_integral(from_even + width) - 2 * wave_integral(from_even) + wave_integral(from_even - width);
+    return static_cast<float>(std::clamp(curvature / (width * width), -1.0, 1.0));
 }
 
 template <class Family>

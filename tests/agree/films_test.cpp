@@ -97,6 +97,23 @@ TEST(GBuffer, WorldCoordinatesWhereAskedFor) {
     expect_near(vector_at(world, 5, 14, "P"), vector_at(camera, 5, 14, "P") + Vec3(1, 2, -3), 1e-4f);
 }
 
+TEST(GBuffer, PlacesAreThoseSeenFromWhereTheCameraIsThen) {
+    // A camera that comes 4 nearer to a wall 10 away, and opens its shutter at the end of that.
+    auto scene = [](const std::string& motion, const std::string& shutter) {
+        return "Film \"gbuffer\" \"integer xresolution\" 8 \"integer yresolution\" 8\n" + motion +
+               "Camera \"perspective\" " + shutter +
+               "\nWorldBegin\nShape \"bilinearmesh\" \"point3 P\" [ -50 -50 10  50 -50 10  -50 50 10  50 50 "
+               "10 ]\n";
+    };
+    const std::string motion = "ActiveTransform EndTime\nTranslate 0 0 -4\nActiveTransform All\n";
+    const Image image =
+        render_text(scene(motion, "\"float shutteropen\" .999 \"float shutterclose\" 1")).image;
+    EXPECT_NEAR(vector_at(image, 3, 4, "P").z, 6, 0.01f);
+    EXPECT_NEAR(vector_at(image, 3, 4, "N").z, -1, 1e-4f);
+    const Image still = render_text(scene("", "")).image;
+    EXPECT_NEAR(vector_at(still, 3, 4, "P").z, 10, 1e-4f);
+}
+
 TEST(GBuffer, AlbedoIsTheMaterialsColour) {
     for (ColorMode mode : {ColorMode::rgb, ColorMode::spectral}) {
         RenderSettings settings = in(mode);
@@ -193,6 +210,9 @@ TEST(SpectralFilm, SaysWhatItNeeds) {
     scene.replace(scene.find("\"spectral\""), 10,
                   "\"spectral\" \"float lambdamin\" 700 \"float lambdamax\" 600");
     EXPECT_THAT(error_of(scene), HasSubstr("lambdamin (700 nm) must be below lambdamax (600 nm)"));
+    scene.replace(scene.find("\"float lambdamin\" 700 \"float lambdamax\" 600"), 43,
+                  "\"float lambdamin\" 500 \"float lambdamax\" 500.0010");
+    EXPECT_THAT(error_of(scene), HasSubstr("ranges of wavelengths are so narrow"));
 }
 
 } // namespace

@@ -107,14 +107,15 @@ void PbrtBuilder::active_transform(std::string_view which, Place place) {
 
 void PbrtBuilder::transform_times(double start, double end, Place place) {
     if (!check_options("TransformTimes", place)) return;
-    if (!(start < end)) {
+    const auto from = static_cast<float>(start), to = static_cast<float>(end);
+    if (!(from < to) || !std::isfinite(from) || !std::isfinite(to)) {
         messages_.add_error(
             std::move(place),
             fmt::format("TransformTimes {} {}; expected the start before the end", start, end));
         return;
     }
-    scene_.time_start = static_cast<float>(start);
-    scene_.time_end = static_cast<float>(end);
+    scene_.time_start = from;
+    scene_.time_end = to;
 }
 
 void PbrtBuilder::attribute_begin(std::string directive, Place place) {

@@ -86,6 +86,7 @@ TEST(MovingTransform, BoundsHoldAllPlaces) {
 TEST(MovingTransform, RefusesWhatHasNoWayBetween) {
     EXPECT_FALSE(MovingTransform::make({}, Matrix4::scale({-1, 1, 1}), 0, 1));
     EXPECT_FALSE(MovingTransform::make(Matrix4::scale({0, 1, 1}), {}, 0, 1));
+    EXPECT_FALSE(MovingTransform::make({}, Matrix4::translate({1, 0, 0}), 1, 1));
     Matrix4 projective;
     projective.m[3][2] = 1;
     EXPECT_FALSE(MovingTransform::make({}, projective, 0, 1));

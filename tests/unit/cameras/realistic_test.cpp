@@ -81,6 +81,9 @@ TEST(Realistic, ExposureGoesWithTheOpeningsAreaAndNotWithItsShape) {
     };
     const float eight = exposure({make_float("aperturediameter", 8)});
     EXPECT_NEAR(exposure({make_float("aperturediameter", 4)}) / eight, 0.25f, 0.01f);
+    for (float small : {0.5f, 0.05f})
+        EXPECT_NEAR(exposure({make_float("aperturediameter", small)}) / eight / sqr(small / 8), 1, 0.03f)
+            << small;
     for (const char* shape : {"gaussian", "square", "pentagon", "star"})
         EXPECT_NEAR(exposure({make_float("aperturediameter", 8), make_string("aperture", shape)}) / eight, 1,
                     0.03f);

@@ -360,6 +360,9 @@ TEST(PbrtDirective, TransformTimes) {
     EXPECT_EQ(scene.time_end, .75f);
     EXPECT_EQ(errors_of("TransformTimes 1 0 WorldBegin"),
               "<string>:1:1: error: TransformTimes 1 0; expected the start before the end");
+    // The same to a float, and beyond it.
+    EXPECT_NE(errors_of("TransformTimes 1 1.00000001 WorldBegin"), "");
+    EXPECT_NE(errors_of("TransformTimes -1e300 1e300 WorldBegin"), "");
 }
 
 TEST(PbrtDirective, WorldBeginResetsTransformationsOnly) {

@@ -114,6 +114,14 @@ TEST(BeamDiffusion, ReflectanceIsInverted) {
     EXPECT_EQ(water().albedo_for(2), 1);
 }
 
+// Where nothing is absorbed nearly all light comes out again, however much it goes straight on at first.
+TEST(DiffusionTable, KeepsTheLightOfForwardScattering) {
+    for (float g : {0.0f, 0.5f, 0.9f, 0.95f}) {
+        const DiffusionTable table(g, 1.3f);
+        EXPECT_GT(table.effective_albedo(table.row(1)), 0.93f) << g;
+    }
+}
+
 TEST(BeamDiffusion, NoMoreLightComesOutThanWentIn) {
     for (float g : {-0.9f, -0.5f, 0.0f, 0.5f, 0.99f})
         for (float eta : {1.0f, 1.33f, 2.5f}) {

@@ -169,6 +169,26 @@ TEST_F(TextureTest, SquaresBlendWhereThePixelIsWide) {
         }
 }
 
+TEST_F(TextureTest, SquaresSeenFromCloseByHaveFineEdges) {
+    build({texture_node("checkerboard", {make_float("uscale", 2)}, false)});
+    auto node = textures.find_float("t");
+    ASSERT_TRUE(node) << first_message();
+    for (float width : {1e-2f, 1e-3f, 1e-4f, 1e-5f})
+        for (float edge : {0.0f, 1.0f, -3.0f}) {
+            float before = edge == 1.0f || edge == -3.0f ? 1.0f : 0.0f;
+            for (int i = -40; i <= 40; ++i) {
+                const Vec3 p{edge + static_cast<float>(i) * width / 20, 0.5f, 0};
+                const Looking at(p + Vec3(0, 0, 10), width / 10, p);
+                const float value = node->eval(at.point());
+                ASSERT_GE(value, 0);
+                ASSERT_LE(value, 1);
+                // From one colour to the other and not back.
+                EXPECT_LE((value - before) * (edge == 0 ? -1.0f : 1.0f), 2e-3f) << width << " " << edge;
+                before = value;
+            }
+        }
+}
+
 TEST(Noise, OctavesTooFineForThePixelAreTheirMean) {
     Rng rng(3);
     double fine = 0, wide = 0, half = 0;
