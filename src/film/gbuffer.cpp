@@ -51,8 +51,9 @@ struct GBufferFilm final : PictureFilm {
     }
     void finish(const Node& node, BuildContext& context) {
         PictureFilm::finish(node, context);
-        if (coordinatesystem == FeatureSpace::camera)
-            output_from_world_ = context.world_from_camera.inverse();
+        if (coordinatesystem != FeatureSpace::camera) return;
+        output_from_world_ = context.world_from_camera.inverse();
+        camera_movement_ = context.camera_movement;
     }
 
     void start(ColorMode mode) override {

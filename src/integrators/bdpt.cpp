@@ -30,10 +30,11 @@ struct Bdpt final : Integrator {
     bool regularize = false;
 
     static void describe(Fields<Bdpt>& f) {
-        f.about("Bidirectional path tracer: walks from the camera and from the lights, joined in all ways. "
-                "For light "
-                "that is hard to find from the camera: lamps in shades, caustics.");
-        f.field("maxdepth", &Bdpt::maxdepth, "bounces of a path at most; 0 shows lights only").in(0, 10000);
+        f.about("Bidirectional path tracer: walks from the camera and from the lights, joined in all ways, "
+                "on surfaces and in participating media. For light that is hard to find from the camera: "
+                "lamps in shades, caustics.");
+        f.field("maxdepth", &Bdpt::maxdepth, "bounces and scatterings of a path at most; 0 shows lights only")
+            .in(0, 10000);
         f.field("visualizestrategies", &Bdpt::visualizestrategies,
                 "also write what each strategy finds, not weighed, as bdpt_d(bounces)_s(vertices from the "
                 "light)_t(vertices from the camera).exr beside the picture; limits maxdepth to 5");
@@ -50,6 +51,7 @@ struct Bdpt final : Integrator {
         maxdepth = shown_depth;
     }
 
+    bool sees_media() const override { return true; }
     bool makes_splats() const override { return true; }
     std::vector<std::string> splat_layers() const override {
         std::vector<std::string> names;

@@ -1,5 +1,7 @@
 #include "integrators/bidirectional.h"
 
+#include "integrators/media_walk.h"
+#include "integrators/medium_vertex.h"
 #include "integrators/shading_normal.h"
 #include "materials/material.h"
 
@@ -10,6 +12,15 @@ namespace {
 // Random numbers of each vertex: for a light, for the next direction, for roulette; from the light one for a
 // light less, but two for the lens.
 constexpr std::uint32_t numbers_per_camera_vertex = 3 + 3 + 1;
+// And where there are media, for the way to the vertex.
+constexpr std::uint32_t numbers_per_way = 1;
+
+/// What a subpath has to do with media.
+struct MediaState {
+    const Medium* medium = nullptr; ///< that it is in
+    LaneWeights lanes;              ///< what they have made of it
+    MediumNumbers::Start numbers;   ///< for the way to the next vertex
+};
 
 } // namespace
 
@@ -36,9 +47,37 @@ struct Bidirectional::Walk {
     Alternatives others;     ///< per steradian at the vertex that was left
     Wavelengths lambda;
     bool rough_before = false;
+    MediaState media;
+
+    /// What the subpath makes of light at its end.
+    Spectrum brings(Spectrum L) const { return media.lanes.alone(start * throughput * L); }
+    Bsdf* bsdf_at(const Hit& hit, Arena& arena) {
+        if (!is_on_surface(hit)) return arena.make<PhaseBsdf>(media.medium->phase());
+        Bsdf* bsdf = hit.material->at(hit, lambda, arena);
+        media.lanes.follow(lambda);
+        return bsdf;
+    }
+    /// Straight on, through a border of media.
+    void go_on(const Hit& border) {
+        media.medium = medium_beyond(border, ray.d, media.medium);
+        ray = border.spawn(ray.d);
+    }
+    /// Through the medium to what was hit, if anything, or to a place in the medium, which then is the hit.
+    /// False when the walk is absorbed. emitted: nullptr, or gets what the medium adds on the way, weighed.
+    bool cross_medium(std::optional<Hit>& hit, Spectrum* emitted, PathContext& path) {
+        Ray part = ray;
+        part.tmax = hit ? hit->t : infinity;
+        MediumNumbers numbers(media.numbers);
+        const MediumCrossing crossing =
+            alhazen::cross_medium(*media.medium, part, emitted != nullptr, media.lanes, path, numbers);
+        media.numbers = numbers.next();
+        if (emitted) *emitted = crossing.emitted;
+        if (crossing.end == MediumCrossing::End::scattered) hit = place_in_medium(crossing, ray.time);
+        return crossing.end != MediumCrossing::End::absorbed;
+    }
 };
 
-/// A point of a surface on a subpath.
+/// A point of a surface, or in a medium, on a subpath.
 struct Bidirectional::Vertex {
     Hit hit;
     Frame frame;
@@ -48,11 +87,12 @@ struct Bidirectional::Vertex {
     Alternatives others;
     int number = 0; ///< of vertices until here, itself counted in
     bool one_wavelength = false;
-    const Vertex* previous = nullptr; ///< of those that can be joined
+    const Vertex* previous = nullptr;  ///< of those that can be joined
+    const MediaState* media = nullptr; ///< of the subpath when it arrived, where there are any
 
     Vertex(const Walk& walk, const Hit& at, Bsdf* bsdf_, const Alternatives& others_, int number_)
-        : hit(at), frame(at.shading_frame()), wo(frame.to_local(at.wo)), bsdf(bsdf_),
-          carried(walk.start * walk.throughput), others(others_), number(number_),
+        : hit(at), frame(is_on_surface(at) ? at.shading_frame() : Frame()), wo(frame.to_local(at.wo)),
+          bsdf(bsdf_), carried(walk.start * walk.throughput), others(others_), number(number_),
           one_wavelength(walk.lambda.secondary_terminated()) {}
 
     bool can_be_joined() const { return has(bsdf->lobes(), Lobes::diffuse | Lobes::glossy); }
@@ -60,9 +100,10 @@ struct Bidirectional::Vertex {
     Scatter from_camera(Vec3 w) const { return bsdf->eval(wo, frame.to_local(w)); }
     Scatter from_light(Vec3 w) const {
         Scatter s = bsdf->eval(wo, frame.to_local(w), TransportMode::importance);
-        s.f *= shading_correction(hit, hit.wo, w);
+        if (is_on_surface(hit)) s.f *= shading_correction(hit, hit.wo, w);
         return s;
     }
+    float cosine(Vec3 w) const { return cosine_at(hit, w); }
 };
 
 /// A path that is found if nothing is in the way.
@@ -73,7 +114,8 @@ struct Bidirectional::Join {
 
 Bidirectional::Bidirectional(const PictureOrder& picture, const Options& options)
     : scene_(picture.scene), camera_(picture.camera), film_(picture.film), options_(options),
-      lights_(lights_by_power(picture.scene.lights())), light_paths_(rendered_fraction(picture.film)) {}
+      has_media_(picture.scene.has_media()), lights_(lights_by_power(picture.scene.lights())),
+      light_paths_(rendered_fraction(picture.film)) {}
 
 // The camera's ray goes first, as paths count them; then the light's walk, whose vertices the camera's meets.
 Task<bool> Bidirectional::find_paths(Ray camera_ray, PathContext& path, PathTaker& taker,
@@ -83,9 +125,13 @@ Task<bool> Bidirectional::find_paths(Ray camera_ray, PathContext& path, PathTake
     walk.ray = camera_ray;
     walk.from.p = camera_ray.o;
     walk.lambda = path.lambda;
+    if (has_media_) {
+        const LaneWeights lanes(path.lambda, path.samples.next1());
+        walk.media = {scene_.medium_at_camera(), lanes, MediumNumbers::start_from(path.samples)};
+    }
     std::optional<Hit> first;
     if (wanted.camera_vertices() > 1) first = co_await path.closest(walk.ray);
-    const Vertex* lit = co_await walk_from_light(camera_ray.time, path, taker, wanted);
+    const Vertex* lit = co_await walk_from_light(walk, path, taker, wanted);
     if (wanted.camera_vertices() > 1) co_await walk_from_camera(walk, first, path, lit, taker, wanted);
     co_return true;
 }
@@ -97,40 +143,51 @@ Vec2 Bidirectional::next_on_lens(SampleStream& samples) const {
 }
 
 /// The last of the vertices that can be joined.
-Task<const Bidirectional::Vertex*> Bidirectional::walk_from_light(float time, PathContext& path,
+Task<const Bidirectional::Vertex*> Bidirectional::walk_from_light(const Walk& camera, PathContext& path,
                                                                   PathTaker& taker, Wanted wanted) const {
     const Vertex* lit = nullptr;
     if (wanted.light_vertices() < 2) co_return lit;
     SampleStream samples = path.samples;
-    samples.skip(numbers_per_camera_vertex * static_cast<std::uint32_t>(options_.maxdepth + 1));
-    const auto start = start_at_light(*lights_, samples, path.lambda, time);
+    samples.skip((numbers_per_camera_vertex + (has_media_ ? numbers_per_way : 0)) *
+                 static_cast<std::uint32_t>(options_.maxdepth + 1));
+    const auto start = start_at_light(*lights_, samples, path.lambda, camera.ray.time);
     if (!start) co_return lit;
     Walk walk;
     walk.ray = start->leaving.ray;
     walk.from.p = start->leaving.p;
     walk.start = start->flux();
     walk.lambda = path.lambda;
+    if (has_media_) {
+        const Medium* medium = co_await medium_at(walk.ray, camera.ray.o, path);
+        walk.media = {medium, camera.media.lanes, MediumNumbers::start_from(samples)};
+    }
     for (int number = 2;;) {
-        const std::optional<Hit> hit = co_await path.closest(walk.ray);
+        std::optional<Hit> hit = co_await path.closest(walk.ray);
+        if (walk.media.medium && !walk.cross_medium(hit, nullptr, path)) break;
         if (!hit) break;
-        Bsdf* bsdf = hit->material->at(*hit, walk.lambda, path.arena);
+        Bsdf* bsdf = walk.bsdf_at(*hit, path.arena);
         if (!bsdf) {
-            walk.ray = hit->spawn(walk.ray.d);
+            walk.go_on(*hit);
             continue;
         }
         const float distance_squared = length_squared(hit->p - walk.from.p);
-        if (distance_squared == 0 || dot(hit->ng, walk.ray.d) == 0) break;
+        if (distance_squared == 0 || cosine_at(*hit, walk.ray.d) == 0) break;
         if (number == 2) walk.start *= start->growth(distance_squared);
         if (options_.regularize && walk.rough_before) bsdf->regularize();
         Vertex* vertex = path.arena.make<Vertex>(
             walk, *hit, bsdf, number == 2 ? first_from_light(*start, *hit) : arrive(walk, *hit), number);
+        if (has_media_) vertex->media = path.arena.make<MediaState>(walk.media);
         const Vec2 lens = next_on_lens(samples);
         if (vertex->can_be_joined()) {
             vertex->previous = lit;
             lit = vertex;
             if (wanted(number, 1))
                 if (auto join = join_camera(*vertex, lens)) {
-                    const bool visible = co_await path.visible(join->shadow_ray);
+                    bool visible;
+                    if (has_media_)
+                        visible = co_await cross_media(*join, *vertex, nullptr, path);
+                    else
+                        visible = co_await path.visible(join->shadow_ray);
                     if (visible) taker.take(join->found);
                 }
         }
@@ -143,22 +200,30 @@ Task<const Bidirectional::Vertex*> Bidirectional::walk_from_light(float time, Pa
 Task<bool> Bidirectional::walk_from_camera(Walk walk, std::optional<Hit> hit, PathContext& path,
                                            const Vertex* lit, PathTaker& taker, Wanted wanted) const {
     for (int number = 2;; hit = co_await path.closest(walk.ray)) {
+        if (walk.media.medium) {
+            // Matter that glows counts as if it had scattered light of its own.
+            Spectrum emitted = 0;
+            const bool goes_on = walk.cross_medium(hit, wanted(0, number + 1) ? &emitted : nullptr, path);
+            if (!emitted.is_black()) take_glow(walk, emitted, number, taker);
+            if (!goes_on) co_return true;
+        }
         if (!hit) {
             if (wanted(0, number)) take_escaped(walk, number, path, taker);
             co_return true;
         }
         const float distance_squared = length_squared(hit->p - walk.from.p);
-        if (distance_squared == 0 || dot(hit->ng, walk.ray.d) == 0) co_return true;
+        if (distance_squared == 0 || cosine_at(*hit, walk.ray.d) == 0) co_return true;
         const Alternatives others = number == 2 ? first_from_camera(walk, *hit) : arrive(walk, *hit);
         if (hit->area_light && wanted(0, number)) take_emitted(walk, *hit, others, number, taker);
-        Bsdf* bsdf = hit->material->at(*hit, walk.lambda, path.arena);
+        Bsdf* bsdf = walk.bsdf_at(*hit, path.arena);
         if (!bsdf) {
-            walk.ray = hit->spawn(walk.ray.d);
+            walk.go_on(*hit);
             continue;
         }
         if (number == wanted.camera_vertices() && !wanted.only) co_return true;
         if (options_.regularize && walk.rough_before) bsdf->regularize();
-        const Vertex vertex(walk, *hit, bsdf, others, number);
+        Vertex vertex(walk, *hit, bsdf, others, number);
+        vertex.media = &walk.media;
         const bool can_be_joined = vertex.can_be_joined();
         std::optional<Join> lamp;
         if (can_be_joined && wanted(1, number))
@@ -166,13 +231,21 @@ Task<bool> Bidirectional::walk_from_camera(Walk walk, std::optional<Hit> hit, Pa
         else
             path.samples.skip(3);
         if (lamp) {
-            const bool visible = co_await path.visible(lamp->shadow_ray);
+            bool visible;
+            if (has_media_)
+                visible = co_await cross_media(*lamp, vertex, nullptr, path);
+            else
+                visible = co_await path.visible(lamp->shadow_ray);
             if (visible) taker.take(lamp->found);
         }
         for (const Vertex* other = can_be_joined ? lit : nullptr; other; other = other->previous) {
             if (!wanted(other->number, number)) continue;
             if (auto found = join(vertex, *other)) {
-                const bool visible = co_await path.visible(found->shadow_ray);
+                bool visible;
+                if (has_media_)
+                    visible = co_await cross_media(*found, vertex, other, path);
+                else
+                    visible = co_await path.visible(found->shadow_ray);
                 if (visible) taker.take(found->found);
             }
         }
@@ -181,16 +254,30 @@ Task<bool> Bidirectional::walk_from_camera(Walk walk, std::optional<Hit> hit, Pa
     }
 }
 
+/// Through all media between the ends of the shadow ray, the first of which is a vertex; to: the other end,
+/// where it is one. False where nothing arrives.
+Task<bool> Bidirectional::cross_media(Join& join, const Vertex& from, const Vertex* to,
+                                      PathContext& path) const {
+    const MediaState& media = *from.media;
+    const LaneWeights joined = to ? media.lanes.joined(to->media->lanes) : media.lanes;
+    const std::uint64_t key = hash_of(media.numbers.key, to ? to->number : 0);
+    const LaneWeights weights =
+        co_await shadow_weights(join.shadow_ray, medium_beyond(from.hit, join.shadow_ray.d, media.medium),
+                                joined, path, MediumNumbers::from_key(key));
+    join.found.L = weights.through_shadow(join.found.L);
+    co_return !join.found.L.is_black();
+}
+
 Alternatives Bidirectional::arrive(const Walk& walk, const Hit& hit) const {
     return walk.others.at_distance(static_cast<double>(length_squared(hit.p - walk.from.p)),
-                                   static_cast<double>(abs_dot(hit.ng, walk.ray.d)));
+                                   static_cast<double>(cosine_at(hit, walk.ray.d)));
 }
 
 // The vertex could be joined with the lens, too; there are that many paths from lights for one from the
 // camera.
 Alternatives Bidirectional::first_from_camera(const Walk& walk, const Hit& hit) const {
     const float density =
-        camera_.ray_density(walk.ray, length(hit.p - walk.from.p)) * abs_dot(hit.ng, walk.ray.d);
+        camera_.ray_density(walk.ray, length(hit.p - walk.from.p)) * cosine_at(hit, walk.ray.d);
     return {density > 0 ? light_paths_ / static_cast<double>(density) : 0, 0};
 }
 
@@ -206,7 +293,7 @@ Alternatives Bidirectional::first_from_light(const LightStart& start, const Hit&
     const auto position = static_cast<double>(leaving.pdf_position),
                direction = static_cast<double>(leaving.pdf_direction);
     const double end = static_cast<double>(start.probability) * (is_far ? direction : position);
-    const double onward = (is_far ? position : direction / d2) * static_cast<double>(abs_dot(hit.ng, w));
+    const double onward = (is_far ? position : direction / d2) * static_cast<double>(cosine_at(hit, w));
     const double back = is_far ? 1 : static_cast<double>(leaving.cosine) / d2;
 
     const LightReceiver at{hit.p, hit.ns};
@@ -227,23 +314,29 @@ bool Bidirectional::scatter(Walk& walk, const Vertex& vertex, SampleStream& samp
     if (!next || !(next->pdf > 0)) return false;
     const Vec3 w = vertex.frame.to_world(next->wi);
     walk.throughput *= next->f / next->pdf;
-    if (mode == TransportMode::importance)
+    if (mode == TransportMode::radiance) {
+        if (has(next->lobes, Lobes::transmission)) walk.eta_scale *= sqr(next->eta);
+    } else if (is_on_surface(vertex.hit)) {
         walk.throughput *= shading_correction(vertex.hit, vertex.hit.wo, w);
-    else if (has(next->lobes, Lobes::transmission))
-        walk.eta_scale *= sqr(next->eta);
+    }
 
     const bool is_specular = has(next->lobes, Lobes::specular);
-    walk.others =
-        vertex.others.beyond(static_cast<double>(abs_dot(vertex.hit.ng, w)), static_cast<double>(next->pdf),
-                             static_cast<double>(next->pdf_reverse), is_specular);
+    walk.others = vertex.others.beyond(static_cast<double>(vertex.cosine(w)), static_cast<double>(next->pdf),
+                                       static_cast<double>(next->pdf_reverse), is_specular);
     walk.from = {vertex.hit.p, vertex.hit.ns};
     walk.ray = vertex.hit.spawn(w);
     walk.rough_before |= !is_specular;
+    Spectrum left = walk.throughput;
+    if (has_media_) {
+        left = walk.media.lanes.alone(left);
+        walk.media.medium = medium_beyond(vertex.hit, w, walk.media.medium);
+        walk.media.numbers = MediumNumbers::start_from(samples);
+    }
 
     // A vertex is worth more than to a path of one end, since all of the other end's are joined with it. In
     // Veach's room the factor 2 was measured to be best, and no roulette to cost half as much again for the
     // same noise.
-    const float survival = 2 * (walk.throughput * walk.eta_scale).max();
+    const float survival = 2 * (left * walk.eta_scale).max();
     if (options_.roulette && survival < 1 && vertex.number > 2) {
         if (samples.next1() >= survival) return false;
         walk.throughput /= survival;
@@ -266,7 +359,7 @@ void Bidirectional::take_emitted(const Walk& walk, const Hit& hit, const Alterna
                                  PathTaker& taker) const {
     FoundPath found;
     found.strategy = {0, number};
-    found.L = walk.start * walk.throughput * hit.area_light->emitted(hit, walk.lambda);
+    found.L = walk.brings(hit.area_light->emitted(hit, walk.lambda));
     if (found.L.is_black()) return;
     found.one_wavelength = walk.lambda.secondary_terminated();
     if (number > 2) {
@@ -280,12 +373,21 @@ void Bidirectional::take_emitted(const Walk& walk, const Hit& hit, const Alterna
     taker.take(found);
 }
 
+/// No other strategy finds it.
+void Bidirectional::take_glow(const Walk& walk, Spectrum emitted, int number, PathTaker& taker) const {
+    FoundPath found;
+    found.strategy = {0, number + 1};
+    found.L = walk.start * walk.throughput * emitted;
+    found.one_wavelength = walk.lambda.secondary_terminated();
+    taker.take(found);
+}
+
 void Bidirectional::take_escaped(const Walk& walk, int number, const PathContext& path,
                                  PathTaker& taker) const {
     for (const Light* light : path.scene.infinite_lights()) {
         FoundPath found;
         found.strategy = {0, number};
-        found.L = walk.start * walk.throughput * light->escaped(walk.ray.o, walk.ray.d, walk.lambda);
+        found.L = walk.brings(light->escaped(walk.ray.o, walk.ray.d, walk.lambda));
         if (found.L.is_black()) continue;
         found.one_wavelength = walk.lambda.secondary_terminated();
         // Directions are per steradian already.
@@ -315,7 +417,7 @@ std::optional<Bidirectional::Join> Bidirectional::join_light(const Vertex& verte
     // Of the light's vertex and this one by a path from the light, over choosing the light's alone.
     double started = static_cast<double>(lights_->probability(at, &light)) *
                      static_cast<double>(leaving.position) * static_cast<double>(leaving.direction) *
-                     static_cast<double>(abs_dot(vertex.hit.ng, sample->wi)) / direct;
+                     static_cast<double>(vertex.cosine(sample->wi)) / direct;
     if (!light.is_far())
         started /= light.is_delta() ? static_cast<double>(length_squared(sample->p - at.p))
                                     : static_cast<double>(abs_dot(sample->ng, sample->wi));
@@ -336,8 +438,8 @@ std::optional<Bidirectional::Join> Bidirectional::join_camera(const Vertex& vert
     if (!view || !film_.splat_reaches(view->film)) return std::nullopt;
     const Scatter scatter = vertex.from_light(-view->d);
     if (scatter.f.is_black()) return std::nullopt;
-    const double seen = static_cast<double>(view->density) *
-                        static_cast<double>(abs_dot(vertex.hit.ng, view->d)) / light_paths_;
+    const double seen =
+        static_cast<double>(view->density) * static_cast<double>(vertex.cosine(view->d)) / light_paths_;
     Join join;
     join.found.strategy = {vertex.number, 1};
     join.found.L = vertex.carried * scatter.f * view->density;
@@ -358,10 +460,8 @@ std::optional<Bidirectional::Join> Bidirectional::join(const Vertex& seen, const
     const Scatter at_lit = lit.from_light(-w);
     if (at_lit.f.is_black()) return std::nullopt;
 
-    const double found_seen =
-        static_cast<double>(at_lit.pdf) * static_cast<double>(abs_dot(seen.hit.ng, w) / d2);
-    const double found_lit =
-        static_cast<double>(at_seen.pdf) * static_cast<double>(abs_dot(lit.hit.ng, w) / d2);
+    const double found_seen = static_cast<double>(at_lit.pdf) * static_cast<double>(seen.cosine(w) / d2);
+    const double found_lit = static_cast<double>(at_seen.pdf) * static_cast<double>(lit.cosine(w) / d2);
     Join join;
     join.found.strategy = {lit.number, seen.number};
     join.found.L = seen.carried * at_seen.f * at_lit.f * lit.carried / d2;

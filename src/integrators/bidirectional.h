@@ -1,8 +1,10 @@
 /// Bidirectional paths (Lafortune and Willems 1993; Veach 1997, chapter 10): a walk from a light and one from
 /// the camera, each vertex of one joined with each vertex of the other. A path can be found in as many ways
 /// as it has vertices; each way is weighed by how likely it was to find the path (see Alternatives), so that
-/// each kind of light comes by the way that finds it best. Picture two people who walk towards each other
-/// through a house: however hidden the lamp, somewhere they stand in one line of sight.
+/// each kind of light comes by the way that finds it best. Media are crossed as by the path tracer through
+/// them, and a place where one scatters is a vertex like any other (Lafortune and Willems 1996); what they
+/// let through is left out of the weights, which so are alike for all ways. Picture two people who walk
+/// towards each other through a house: however hidden the lamp, somewhere they stand in one line of sight.
 #pragma once
 
 #include <optional>
@@ -67,9 +69,12 @@ class Bidirectional {
     struct Wanted;
     struct Join;
 
-    Task<const Vertex*> walk_from_light(float time, PathContext& path, PathTaker& taker, Wanted wanted) const;
+    Task<const Vertex*> walk_from_light(const Walk& camera, PathContext& path, PathTaker& taker,
+                                        Wanted wanted) const;
     Task<bool> walk_from_camera(Walk walk, std::optional<Hit> hit, PathContext& path, const Vertex* lit,
                                 PathTaker& taker, Wanted wanted) const;
+
+    Task<bool> cross_media(Join& join, const Vertex& from, const Vertex* to, PathContext& path) const;
 
     Vec2 next_on_lens(SampleStream& samples) const;
     Alternatives first_from_light(const LightStart& start, const Hit& hit) const;
@@ -79,6 +84,7 @@ class Bidirectional {
 
     void take_emitted(const Walk& walk, const Hit& hit, const Alternatives& others, int number,
                       PathTaker& taker) const;
+    void take_glow(const Walk& walk, Spectrum emitted, int number, PathTaker& taker) const;
     void take_escaped(const Walk& walk, int number, const PathContext& path, PathTaker& taker) const;
     double emission_weight(const Walk& walk, const Light& light, double direct, LeavingPdf leaving,
                            const Alternatives& others) const;
@@ -90,6 +96,7 @@ class Bidirectional {
     const Camera& camera_;
     const Film& film_;
     Options options_;
+    bool has_media_; ///< where not, nobody asks for any
     std::unique_ptr<LightChooser> lights_;
     double
         light_paths_; ///< paths from lights for each sample of a pixel, all pixels of the film having samples

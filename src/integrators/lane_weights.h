@@ -78,6 +78,16 @@ class LaneWeights {
         path_ *= through;
         light_ *= t * c.sigma_maj;
     }
+    /// Of two walks with the same hero, joined into one.
+    LaneWeights joined(const LaneWeights& other) const {
+        LaneWeights both = *this;
+        both.beta_ *= other.beta_;
+        both.path_ *= other.path_;
+        both.lanes_ = std::min(lanes_, other.lanes_);
+        return both;
+    }
+    /// What is brought over a shadow ray by those who weigh it themselves.
+    Spectrum through_shadow(Spectrum L) const { return from_light(L, 1, 0); }
     void block() { beta_ = 0; }
     /// Fraction of the light that has come through so far, about.
     float shadow_transmittance() const { return (beta_ / mean(path_ + light_)).max(); }

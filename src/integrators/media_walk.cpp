@@ -6,20 +6,18 @@ namespace alhazen {
 
 namespace {
 
-// The sampler's next number places the first collision; those that follow come from a generator of their own,
-// since nobody can say how many there will be.
-Collisions collisions_of(const Medium& medium, const Ray& ray, int hero, PathContext& path) {
-    const float u = path.samples.next1();
-    const SampleState& s = path.samples.state();
-    const Rng rng(hash_of(std::bit_cast<std::uint32_t>(u), s.pixel.x, s.pixel.y, s.sample, s.dimension));
-    return Collisions(medium, ray, path.lambda, hero, u, rng);
+Collisions collisions_of(const Medium& medium, const Ray& ray, int hero, const PathContext& path,
+                         MediumNumbers& numbers) {
+    const MediumNumbers::Start start = numbers.next();
+    return Collisions(medium, ray, path.lambda, hero, start.u, Rng(start.key));
 }
 
 // Through one medium towards a light; where hardly any of it is left, three of four such rays are given up.
-void weaken_by(const Medium& medium, const Ray& ray, LaneWeights& weights, PathContext& path) {
+void weaken_by(const Medium& medium, const Ray& ray, LaneWeights& weights, const PathContext& path,
+               MediumNumbers& numbers) {
     constexpr float hardly_any = 0.05f, given_up = 0.75f;
     const float whole = weights.shadow_transmittance();
-    Collisions collisions = collisions_of(medium, ray, weights.hero(), path);
+    Collisions collisions = collisions_of(medium, ray, weights.hero(), path, numbers);
     while (const auto collision = collisions.next()) {
         weights.weaken(*collision);
         if (weights.is_black()) return;
@@ -33,12 +31,12 @@ void weaken_by(const Medium& medium, const Ray& ray, LaneWeights& weights, PathC
 } // namespace
 
 MediumCrossing cross_medium(const Medium& medium, const Ray& ray, bool counts_emission, LaneWeights& weights,
-                            PathContext& path) {
+                            PathContext& path, MediumNumbers& numbers) {
     using End = MediumCrossing::End;
     MediumCrossing crossing;
     const int hero = weights.hero();
     const bool emits = counts_emission && medium.is_emissive();
-    Collisions collisions = collisions_of(medium, ray, hero, path);
+    Collisions collisions = collisions_of(medium, ray, hero, path, numbers);
     while (const auto collision = collisions.next()) {
         if (emits && !collision->at.sigma_a.is_black()) crossing.emitted += weights.emitted(*collision);
         // What the collision was is drawn at the hero's wavelength.
@@ -85,7 +83,8 @@ std::optional<DirectLight> propose_light_in_medium(const MediumCrossing& at, con
     return direct;
 }
 
-Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weights, PathContext& path) {
+Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weights, PathContext& path,
+                                 MediumNumbers numbers) {
     weights.begin_shadow();
     const Vec3 target = ray.o + ray.d;
     for (;;) {
@@ -98,12 +97,23 @@ Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weig
             Ray part = ray;
             // Without a border in between, on to the light itself.
             part.tmax = hit ? hit->t : 1;
-            weaken_by(*medium, part, weights, path);
+            weaken_by(*medium, part, weights, path, numbers);
         }
         if (!hit || weights.is_black()) co_return weights;
         medium = medium_beyond(*hit, ray.d, medium);
         ray.o = offset_origin(hit->p, hit->p_error, hit->ng, target - hit->p);
         ray.d = target - ray.o;
+    }
+}
+
+Task<const Medium*> medium_at(Ray ray, Vec3 camera, PathContext& path) {
+    for (;;) {
+        ray.d = camera - ray.o;
+        ray.tmax = 1;
+        const std::optional<Hit> hit = co_await path.closest(ray);
+        if (!hit) co_return path.scene.medium_at_camera();
+        if (hit->media) co_return medium_beyond(*hit, -ray.d, nullptr);
+        ray.o = offset_origin(hit->p, hit->p_error, hit->ng, ray.d);
     }
 }
 

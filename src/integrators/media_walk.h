@@ -9,6 +9,40 @@
 
 namespace alhazen {
 
+/// Where random numbers for the media along a stretch of a path come from: for each, one that places the
+/// first collision, and the key of a generator for what follows, since nobody can say how much there will be.
+class MediumNumbers {
+  public:
+    struct Start {
+        float u = 0;
+        std::uint64_t key = 0;
+    };
+
+    /// The sampler's next number for each medium. The stream must outlive this.
+    explicit MediumNumbers(SampleStream& samples) : samples_(&samples) {}
+    /// The given start for the first medium, and others that it determines.
+    explicit MediumNumbers(Start start) : start_(start) {}
+    static MediumNumbers from_key(std::uint64_t key) { return MediumNumbers(Start{unit_float(key), key}); }
+
+    Start next() {
+        if (samples_) return start_from(*samples_);
+        const Start start = start_;
+        start_.key = hash_of(start_.key);
+        start_.u = unit_float(start_.key);
+        return start;
+    }
+    /// Takes one number.
+    static Start start_from(SampleStream& samples) {
+        const float u = samples.next1();
+        const SampleState& s = samples.state();
+        return {u, hash_of(std::bit_cast<std::uint32_t>(u), s.pixel.x, s.pixel.y, s.sample, s.dimension)};
+    }
+
+  private:
+    SampleStream* samples_ = nullptr;
+    Start start_;
+};
+
 /// How a ray's way through a medium ended.
 struct MediumCrossing {
     enum class End { passed, scattered, absorbed };
@@ -19,7 +53,7 @@ struct MediumCrossing {
 
 /// Follows the ray through the medium up to ray.tmax. counts_emission: whether what glows is seen.
 MediumCrossing cross_medium(const Medium& medium, const Ray& ray, bool counts_emission, LaneWeights& weights,
-                            PathContext& path);
+                            PathContext& path, MediumNumbers& numbers);
 
 /// Next event estimation at a point of a medium; takes three random numbers.
 std::optional<DirectLight> propose_light_in_medium(const MediumCrossing& at, const Medium& medium, float time,
@@ -27,6 +61,11 @@ std::optional<DirectLight> propose_light_in_medium(const MediumCrossing& at, con
 
 /// Weights at the light's end of a shadow ray that begins in the medium: through media and their borders,
 /// black where something stands in between.
-Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weights, PathContext& path);
+Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weights, PathContext& path,
+                                 MediumNumbers numbers);
+
+/// The medium where the ray begins: that on this side of the first border on the way to the camera, or the
+/// camera's own. Lights do not know theirs; to paths that find them it follows from the borders, too.
+Task<const Medium*> medium_at(Ray ray, Vec3 camera, PathContext& path);
 
 } // namespace alhazen

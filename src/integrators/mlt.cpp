@@ -286,7 +286,8 @@ struct Mlt final : Integrator, MltOptions {
                 "little, again "
                 "and again. For light that is found seldom. The number of samples of a pixel is that of "
                 "mutations.");
-        f.field("maxdepth", &Mlt::maxdepth, "bounces of a path at most; 0 shows lights only").in(0, 10000);
+        f.field("maxdepth", &Mlt::maxdepth, "bounces and scatterings of a path at most; 0 shows lights only")
+            .in(0, 10000);
         f.field(
              "bootstrapsamples", &Mlt::bootstrapsamples,
              "independent paths of each length, which say how bright the picture is and where chains begin")
@@ -302,6 +303,7 @@ struct Mlt final : Integrator, MltOptions {
                 "widen narrow lobes after the first rough bounce: less noise, a little blur");
     }
 
+    bool sees_media() const override { return true; }
     bool makes_splats() const override { return true; }
     int samples_per_pixel(int, std::optional<int> asked) const override {
         return asked.value_or(mutationsperpixel);

@@ -32,7 +32,9 @@ struct SimpleVolPath final : Integrator {
             std::optional<Hit> hit = co_await path.closest(ray);
             if (medium) {
                 ray.tmax = hit ? hit->t : infinity;
-                MediumCrossing crossing = cross_medium(*medium, ray, depth < maxdepth, weights, path);
+                MediumNumbers numbers(path.samples);
+                MediumCrossing crossing =
+                    cross_medium(*medium, ray, depth < maxdepth, weights, path, numbers);
                 sum += crossing.emitted;
                 if (crossing.end == MediumCrossing::End::absorbed) break;
                 if (crossing.end == MediumCrossing::End::scattered) {

@@ -60,8 +60,9 @@ struct VolPath final : PathIntegrator {
             std::optional<Hit> hit = co_await path.closest(walk.ray);
             if (walk.medium) {
                 walk.ray.tmax = hit ? hit->t : infinity;
+                MediumNumbers numbers(path.samples);
                 MediumCrossing crossing =
-                    cross_medium(*walk.medium, walk.ray, walk.depth < maxdepth, walk.weights, path);
+                    cross_medium(*walk.medium, walk.ray, walk.depth < maxdepth, walk.weights, path, numbers);
                 sum += crossing.emitted;
                 if (crossing.end == MediumCrossing::End::absorbed) co_return sum;
                 if (crossing.end == MediumCrossing::End::scattered) {
@@ -115,8 +116,9 @@ struct VolPath final : PathIntegrator {
                                                   PathContext& path) {
         const std::optional<DirectLight> direct = propose_light(hit, bsdf, hit.shading_frame(), path);
         if (!direct) co_return 0;
-        const LaneWeights weights = co_await shadow_weights(
-            direct->shadow_ray, medium_beyond(hit, direct->shadow_ray.d, walk.medium), walk.weights, path);
+        const LaneWeights weights =
+            co_await shadow_weights(direct->shadow_ray, medium_beyond(hit, direct->shadow_ray.d, walk.medium),
+                                    walk.weights, path, MediumNumbers(path.samples));
         co_return weights.from_light(direct->value, direct->light_pdf,
                                      direct->is_delta ? 0 : direct->bsdf_pdf);
     }
@@ -126,8 +128,8 @@ struct VolPath final : PathIntegrator {
         const std::optional<DirectLight> direct =
             propose_light_in_medium(crossing, *walk.medium, walk.ray.time, path);
         if (!direct) co_return 0;
-        const LaneWeights weights =
-            co_await shadow_weights(direct->shadow_ray, walk.medium, walk.weights, path);
+        const LaneWeights weights = co_await shadow_weights(direct->shadow_ray, walk.medium, walk.weights,
+                                                            path, MediumNumbers(path.samples));
         co_return weights.from_light(direct->value, direct->light_pdf,
                                      direct->is_delta ? 0 : direct->bsdf_pdf);
     }

@@ -191,7 +191,7 @@ void warn_of_unseen(const World& world, const Place& place, Messages& messages) 
     if (world.scene->has_media() && !world.integrator->sees_media())
         messages.add_warning(place,
                              "this integrator does not see participating media, of which the scene has "
-                             "some; volpath does");
+                             "some; volpath, bdpt and mlt do");
     bool has_subsurface = false;
     for (std::size_t i = 0; i < world.materials.size(); ++i)
         if (const Material* material = world.materials.at(i)) has_subsurface |= material->has_subsurface();
