@@ -47,19 +47,23 @@ struct Bidirectional::Walk {
     Alternatives others;     ///< per steradian at the vertex that was left
     Wavelengths lambda;
     bool rough_before = false;
-    MediaState media;
+    MediaState* media = nullptr; ///< where there are any
 
+    bool is_in_medium() const { return media && media->medium; }
     /// What the subpath makes of light at its end.
-    Spectrum brings(Spectrum L) const { return media.lanes.alone(start * throughput * L); }
+    Spectrum brings(Spectrum L) const {
+        const Spectrum all = start * throughput * L;
+        return media ? media->lanes.alone(all) : all;
+    }
     Bsdf* bsdf_at(const Hit& hit, Arena& arena) {
-        if (!is_on_surface(hit)) return arena.make<PhaseBsdf>(media.medium->phase());
+        if (!is_on_surface(hit)) return arena.make<PhaseBsdf>(media->medium->phase());
         Bsdf* bsdf = hit.material->at(hit, lambda, arena);
-        media.lanes.follow(lambda);
+        if (media) media->lanes.follow(lambda);
         return bsdf;
     }
     /// Straight on, through a border of media.
     void go_on(const Hit& border) {
-        media.medium = medium_beyond(border, ray.d, media.medium);
+        if (media) media->medium = medium_beyond(border, ray.d, media->medium);
         ray = border.spawn(ray.d);
     }
     /// Through the medium to what was hit, if anything, or to a place in the medium, which then is the hit.
@@ -67,10 +71,10 @@ struct Bidirectional::Walk {
     bool cross_medium(std::optional<Hit>& hit, Spectrum* emitted, PathContext& path) {
         Ray part = ray;
         part.tmax = hit ? hit->t : infinity;
-        MediumNumbers numbers(media.numbers);
+        MediumNumbers numbers(media->numbers);
         const MediumCrossing crossing =
-            alhazen::cross_medium(*media.medium, part, emitted != nullptr, media.lanes, path, numbers);
-        media.numbers = numbers.next();
+            alhazen::cross_medium(*media->medium, part, emitted != nullptr, media->lanes, path, numbers);
+        media->numbers = numbers.next();
         if (emitted) *emitted = crossing.emitted;
         if (crossing.end == MediumCrossing::End::scattered) hit = place_in_medium(crossing, ray.time);
         return crossing.end != MediumCrossing::End::absorbed;
@@ -87,13 +91,14 @@ struct Bidirectional::Vertex {
     Alternatives others;
     int number = 0; ///< of vertices until here, itself counted in
     bool one_wavelength = false;
+    float without_area = 0;            ///< 1 in a medium
     const Vertex* previous = nullptr;  ///< of those that can be joined
     const MediaState* media = nullptr; ///< of the subpath when it arrived, where there are any
 
     Vertex(const Walk& walk, const Hit& at, Bsdf* bsdf_, const Alternatives& others_, int number_)
         : hit(at), frame(is_on_surface(at) ? at.shading_frame() : Frame()), wo(frame.to_local(at.wo)),
           bsdf(bsdf_), carried(walk.start * walk.throughput), others(others_), number(number_),
-          one_wavelength(walk.lambda.secondary_terminated()) {}
+          one_wavelength(walk.lambda.secondary_terminated()), without_area(is_on_surface(at) ? 0.0f : 1.0f) {}
 
     bool can_be_joined() const { return has(bsdf->lobes(), Lobes::diffuse | Lobes::glossy); }
     /// For light that goes on along w from a subpath that came from the camera.
@@ -103,7 +108,8 @@ struct Bidirectional::Vertex {
         if (is_on_surface(hit)) s.f *= shading_correction(hit, hit.wo, w);
         return s;
     }
-    float cosine(Vec3 w) const { return cosine_at(hit, w); }
+    /// As cosine_at() has it, whose normal is zero in a medium.
+    float cosine(Vec3 w) const { return abs_dot(hit.ng, w) + without_area; }
 };
 
 /// A path that is found if nothing is in the way.
@@ -127,7 +133,8 @@ Task<bool> Bidirectional::find_paths(Ray camera_ray, PathContext& path, PathTake
     walk.lambda = path.lambda;
     if (has_media_) {
         const LaneWeights lanes(path.lambda, path.samples.next1());
-        walk.media = {scene_.medium_at_camera(), lanes, MediumNumbers::start_from(path.samples)};
+        walk.media = path.arena.make<MediaState>(scene_.medium_at_camera(), lanes,
+                                                 MediumNumbers::start_from(path.samples));
     }
     std::optional<Hit> first;
     if (wanted.camera_vertices() > 1) first = co_await path.closest(walk.ray);
@@ -159,11 +166,12 @@ Task<const Bidirectional::Vertex*> Bidirectional::walk_from_light(const Walk& ca
     walk.lambda = path.lambda;
     if (has_media_) {
         const Medium* medium = co_await medium_at(walk.ray, camera.ray.o, path);
-        walk.media = {medium, camera.media.lanes, MediumNumbers::start_from(samples)};
+        walk.media =
+            path.arena.make<MediaState>(medium, camera.media->lanes, MediumNumbers::start_from(samples));
     }
     for (int number = 2;;) {
         std::optional<Hit> hit = co_await path.closest(walk.ray);
-        if (walk.media.medium && !walk.cross_medium(hit, nullptr, path)) break;
+        if (walk.is_in_medium() && !walk.cross_medium(hit, nullptr, path)) break;
         if (!hit) break;
         Bsdf* bsdf = walk.bsdf_at(*hit, path.arena);
         if (!bsdf) {
@@ -176,7 +184,7 @@ Task<const Bidirectional::Vertex*> Bidirectional::walk_from_light(const Walk& ca
         if (options_.regularize && walk.rough_before) bsdf->regularize();
         Vertex* vertex = path.arena.make<Vertex>(
             walk, *hit, bsdf, number == 2 ? first_from_light(*start, *hit) : arrive(walk, *hit), number);
-        if (has_media_) vertex->media = path.arena.make<MediaState>(walk.media);
+        if (walk.media) vertex->media = path.arena.make<MediaState>(*walk.media);
         const Vec2 lens = next_on_lens(samples);
         if (vertex->can_be_joined()) {
             vertex->previous = lit;
@@ -200,7 +208,7 @@ Task<const Bidirectional::Vertex*> Bidirectional::walk_from_light(const Walk& ca
 Task<bool> Bidirectional::walk_from_camera(Walk walk, std::optional<Hit> hit, PathContext& path,
                                            const Vertex* lit, PathTaker& taker, Wanted wanted) const {
     for (int number = 2;; hit = co_await path.closest(walk.ray)) {
-        if (walk.media.medium) {
+        if (walk.is_in_medium()) {
             // Matter that glows counts as if it had scattered light of its own.
             Spectrum emitted = 0;
             const bool goes_on = walk.cross_medium(hit, wanted(0, number + 1) ? &emitted : nullptr, path);
@@ -223,7 +231,7 @@ Task<bool> Bidirectional::walk_from_camera(Walk walk, std::optional<Hit> hit, Pa
         if (number == wanted.camera_vertices() && !wanted.only) co_return true;
         if (options_.regularize && walk.rough_before) bsdf->regularize();
         Vertex vertex(walk, *hit, bsdf, others, number);
-        vertex.media = &walk.media;
+        vertex.media = walk.media;
         const bool can_be_joined = vertex.can_be_joined();
         std::optional<Join> lamp;
         if (can_be_joined && wanted(1, number))
@@ -327,10 +335,10 @@ bool Bidirectional::scatter(Walk& walk, const Vertex& vertex, SampleStream& samp
     walk.ray = vertex.hit.spawn(w);
     walk.rough_before |= !is_specular;
     Spectrum left = walk.throughput;
-    if (has_media_) {
-        left = walk.media.lanes.alone(left);
-        walk.media.medium = medium_beyond(vertex.hit, w, walk.media.medium);
-        walk.media.numbers = MediumNumbers::start_from(samples);
+    if (MediaState* media = walk.media) {
+        left = media->lanes.alone(left);
+        media->medium = medium_beyond(vertex.hit, w, media->medium);
+        media->numbers = MediumNumbers::start_from(samples);
     }
 
     // A vertex is worth more than to a path of one end, since all of the other end's are joined with it. In
