@@ -1,7 +1,9 @@
-/// Spectra of many colours, as pictures have them. The cube of colours is divided into cells, finer where it
+/// The cube of colours is divided into cells, finer where it
 /// is dark; in the middle of a cell the fit and its first two derivatives after the colour (by the theorem of
 /// the implicit function) are computed when the first colour falls there, and give the others. Where the
 /// corners of the cell do not come back well enough (next to black and white, mostly), each colour is fitted.
+#include "color/upsample_many.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -83,10 +85,14 @@ Cell::Cell(const RgbColorSpace& space, const SigmoidQuadrature& quadrature, Cell
     }
 }
 
+} // namespace
+
 /// The cells that colours have fallen into so far. What is in a cell depends on its number alone.
-class Cells {
+class PictureUpsampler::Cells {
   public:
     explicit Cells(const RgbColorSpace& space) : space_(space), quadrature_(space) {}
+
+    void upsample_run(std::span<const Vec3> rgb, std::span<SigmoidCoefficients> out);
 
     const Cell& get(CellNumber number) {
         {
@@ -100,6 +106,8 @@ class Cells {
     }
 
   private:
+    class Lookup;
+
     const RgbColorSpace& space_;
     SigmoidQuadrature quadrature_;
     std::mutex mutex_;
@@ -107,10 +115,9 @@ class Cells {
 };
 
 /// What a thread has seen lately: pictures show the same cells, and the same colours, again and again.
-class Lookup {
+class PictureUpsampler::Cells::Lookup {
   public:
-    Lookup(const RgbColorSpace& space, Cells& cells)
-        : space_(space), cells_(cells), recent_(1024), known_(1024) {}
+    explicit Lookup(Cells& cells) : cells_(cells), recent_(1024), known_(1024) {}
 
     SigmoidCoefficients find(Vec3 rgb) {
         if (rgb.x == rgb.y && rgb.y == rgb.z) return SigmoidCoefficients::grey(rgb.x);
@@ -133,27 +140,36 @@ class Lookup {
     SigmoidCoefficients fit(Vec3 rgb) {
         auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v); };
         Known& k = known_[hash_of(bits(rgb.x), bits(rgb.y), bits(rgb.z)) % known_.size()];
-        if (!(k.rgb == rgb)) k = {rgb, upsample(space_, rgb)};
+        if (!(k.rgb == rgb)) k = {rgb, upsample(cells_.space_, rgb)};
         return k.coefficients;
     }
 
-    const RgbColorSpace& space_;
     Cells& cells_;
     std::vector<Recent> recent_;
     std::vector<Known> known_;
 };
 
-} // namespace
+void PictureUpsampler::Cells::upsample_run(std::span<const Vec3> rgb, std::span<SigmoidCoefficients> out) {
+    Lookup lookup(*this);
+    // Written so that NaN becomes 0.
+    auto in_range = [](float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; };
+    for (std::size_t i = 0; i < rgb.size(); ++i)
+        out[i] = lookup.find({in_range(rgb[i].x), in_range(rgb[i].y), in_range(rgb[i].z)});
+}
+
+PictureUpsampler::PictureUpsampler(const RgbColorSpace& space) : cells_(std::make_unique<Cells>(space)) {}
+PictureUpsampler::~PictureUpsampler() = default;
+PictureUpsampler::PictureUpsampler(PictureUpsampler&&) noexcept = default;
+PictureUpsampler& PictureUpsampler::operator=(PictureUpsampler&&) noexcept = default;
+
+void PictureUpsampler::operator()(std::span<const Vec3> rgb, std::span<SigmoidCoefficients> out) const {
+    parallel_ranges(rgb.size(), 16384, [&](std::size_t begin, std::size_t end) {
+        cells_->upsample_run(rgb.subspan(begin, end - begin), out.subspan(begin, end - begin));
+    });
+}
 
 void upsample(const RgbColorSpace& space, std::span<const Vec3> rgb, std::span<SigmoidCoefficients> out) {
-    Cells cells(space);
-    parallel_ranges(rgb.size(), 16384, [&](std::size_t begin, std::size_t end) {
-        Lookup lookup(space, cells);
-        // Written so that NaN becomes 0.
-        auto in_range = [](float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; };
-        for (std::size_t i = begin; i < end; ++i)
-            out[i] = lookup.find({in_range(rgb[i].x), in_range(rgb[i].y), in_range(rgb[i].z)});
-    });
+    PictureUpsampler{space}(rgb, out);
 }
 
 } // namespace alhazen

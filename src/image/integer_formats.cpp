@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/threads.h"
 #include "color/tone.h"
 #include "image/formats.h"
 #include "image/stb.h"
@@ -54,8 +55,11 @@ Image to_linear(const T* pixels, const StbInfo& info, Encoding encoding) {
     auto channels = static_cast<std::size_t>(info.channels);
     std::size_t alpha = channels % 2 == 0 ? channels - 1 : channels;
     auto values = image.values();
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = i % channels == alpha ? linear[pixels[i]] : curve[pixels[i]];
+    parallel_ranges(values.size() / channels, 32768, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin * channels; i < end * channels; i += channels)
+            for (std::size_t c = 0; c < channels; ++c)
+                values[i + c] = c == alpha ? linear[pixels[i + c]] : curve[pixels[i + c]];
+    });
     image.info.encoding = encoding;
     image.info.bits = static_cast<int>(8 * sizeof(T));
     return image;

@@ -1,5 +1,6 @@
 #include "image/pyramid.h"
 
+#include "image/make_pyramid.h"
 #include "image/resample.h"
 
 namespace alhazen {
@@ -36,21 +37,6 @@ Vec2 texel_coordinates(WrapMode mode, Vec2 uv, Vec2i size) {
         out[i] = std::clamp(u * n, -n - 1, 2 * n + 1);
     }
     return out;
-}
-
-template <class T, class F>
-Pyramid<T> build(Image image, WrapMode mode, bool reduced_levels, F texel_at) {
-    std::vector<typename Pyramid<T>::Level> levels;
-    for (;;) {
-        typename Pyramid<T>::Level level{image.size(), {}};
-        level.texels.reserve(static_cast<std::size_t>(image.width()) *
-                             static_cast<std::size_t>(image.height()));
-        for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x) level.texels.push_back(texel_at(image, x, y));
-        levels.push_back(std::move(level));
-        if (!reduced_levels || (image.width() == 1 && image.height() == 1)) return {std::move(levels), mode};
-        image = resample_box(image, std::max(1, image.width() / 2), std::max(1, image.height() / 2));
-    }
 }
 
 } // namespace
@@ -99,15 +85,25 @@ std::optional<Vec2i> nearest_texel(WrapMode mode, Vec2 uv, Vec2i size) {
                            size);
 }
 
+void for_each_level(Image image, bool reduced_levels, const std::function<void(const Image&)>& use) {
+    for (;;) {
+        use(image);
+        if (!reduced_levels || (image.width() == 1 && image.height() == 1)) return;
+        image = resample_box(image, std::max(1, image.width() / 2), std::max(1, image.height() / 2));
+    }
+}
+
 Pyramid<float> channel_pyramid(const Image& image, int channel, WrapMode mode, bool reduced_levels) {
     const std::string name = image.channel_names()[static_cast<std::size_t>(channel)];
-    return build<float>(image.select({&name, 1}), mode, reduced_levels,
-                        [](const Image& level, int x, int y) { return level.at(x, y); });
+    return make_pyramid<float>(
+        image.select({&name, 1}), mode, reduced_levels,
+        fill_each<float>([](const Image& level, int x, int y) { return level.at(x, y); }));
 }
 
 Pyramid<Vec3> rgb_pyramid(const Image& image, WrapMode mode, bool reduced_levels) {
-    return build<Vec3>(image.to_rgb(), mode, reduced_levels,
-                       [](const Image& level, int x, int y) { return level.rgb(x, y); });
+    return make_pyramid<Vec3>(
+        image.to_rgb(), mode, reduced_levels,
+        fill_each<Vec3>([](const Image& level, int x, int y) { return level.rgb(x, y); }));
 }
 
 } // namespace alhazen

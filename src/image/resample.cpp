@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/threads.h"
+
 namespace alhazen {
 
 namespace {
@@ -40,34 +42,39 @@ std::vector<Taps> bilinear_taps_of_axis(int from, int to) {
     return taps;
 }
 
+void resample_row(const Image& image, const std::vector<Taps>& columns, const Taps& vertical,
+                  std::vector<double>& row, std::span<float> out) {
+    const auto channels = static_cast<std::size_t>(image.channels());
+    std::fill(row.begin(), row.end(), 0.0);
+    for (std::size_t k = 0; k < vertical.weights.size(); ++k) {
+        const float* source = image.pixel(0, vertical.first + static_cast<int>(k)).data();
+        for (std::size_t i = 0; i < row.size(); ++i)
+            row[i] += vertical.weights[k] * static_cast<double>(source[i]);
+    }
+    for (std::size_t x = 0; x < columns.size(); ++x) {
+        const Taps& horizontal = columns[x];
+        const double* first = &row[static_cast<std::size_t>(horizontal.first) * channels];
+        for (std::size_t c = 0; c < channels; ++c) {
+            double sum = 0;
+            for (std::size_t k = 0; k < horizontal.weights.size(); ++k)
+                sum += horizontal.weights[k] * first[k * channels + c];
+            out[x * channels + c] = static_cast<float>(sum);
+        }
+    }
+}
+
 Image resample(const Image& image, const std::vector<Taps>& columns, const std::vector<Taps>& rows) {
-    int width = static_cast<int>(columns.size()), height = static_cast<int>(rows.size());
-    int channels = image.channels();
-    Image out(width, height, image.channel_names());
+    Image out(static_cast<int>(columns.size()), static_cast<int>(rows.size()), image.channel_names());
     out.info.metadata = image.info.metadata;
     out.info.encoding = image.info.encoding;
     out.info.bits = image.info.bits;
-    std::vector<double> row(static_cast<std::size_t>(image.width() * channels));
-    for (int y = 0; y < height; ++y) {
-        const Taps& vertical = rows[static_cast<std::size_t>(y)];
-        std::fill(row.begin(), row.end(), 0.0);
-        for (std::size_t k = 0; k < vertical.weights.size(); ++k) {
-            const float* source = image.pixel(0, vertical.first + static_cast<int>(k)).data();
-            for (std::size_t i = 0; i < row.size(); ++i)
-                row[i] += vertical.weights[k] * static_cast<double>(source[i]);
-        }
-        for (int x = 0; x < width; ++x) {
-            const Taps& horizontal = columns[static_cast<std::size_t>(x)];
-            for (int c = 0; c < channels; ++c) {
-                double sum = 0;
-                for (std::size_t k = 0; k < horizontal.weights.size(); ++k)
-                    sum +=
-                        horizontal.weights[k] * row[static_cast<std::size_t>(
-                                                    (horizontal.first + static_cast<int>(k)) * channels + c)];
-                out.at(x, y, c) = static_cast<float>(sum);
-            }
-        }
-    }
+    const std::size_t width = columns.size() * static_cast<std::size_t>(image.channels());
+    parallel_ranges(rows.size(), 1 + 32768 / width, [&](std::size_t begin, std::size_t end) {
+        std::vector<double> row(static_cast<std::size_t>(image.width()) *
+                                static_cast<std::size_t>(image.channels()));
+        for (std::size_t y = begin; y < end; ++y)
+            resample_row(image, columns, rows[y], row, out.values().subspan(y * width, width));
+    });
     return out;
 }
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "describe/build_apart.h"
+
 namespace alhazen {
 
 namespace {
@@ -23,7 +25,7 @@ std::string_view substitute_for(std::string_view type) {
 
 } // namespace
 
-/// Builds materials depth first: what a mixture mixes before the mixture.
+/// Builds materials at the same time, and then mixtures depth first: what a mixture mixes before the mixture.
 class MaterialSet::Builder {
   public:
     Builder(MaterialSet& set, const std::vector<Node>& nodes, BuildContext& context)
@@ -37,6 +39,11 @@ class MaterialSet::Builder {
             context_.messages.add_error(node.place,
                                         fmt::format("the material \"{}\" is already defined", node.name));
         }
+        std::vector<std::size_t> plain;
+        for (std::size_t i = 0; i < nodes_.size(); ++i)
+            if (nodes_[i].type != "mix") plain.push_back(i);
+        build_apart(plain.size(), context_,
+                    [&](std::size_t i, BuildContext& context) { make(plain[i], context); });
         for (std::size_t i = 0; i < nodes_.size(); ++i) build(i, 0);
     }
 
@@ -48,9 +55,12 @@ class MaterialSet::Builder {
     void build(std::size_t i, int depth) {
         if (states_[i] == State::done) return;
         states_[i] = State::building;
-        if (build_parts(i, depth)) {
-            set_.list_[i] = material_kinds().make(nodes_[i], context_, substitute_for(nodes_[i].type));
-        }
+        if (build_parts(i, depth)) make(i, context_);
+        states_[i] = State::done;
+    }
+
+    void make(std::size_t i, BuildContext& context) {
+        set_.list_[i] = material_kinds().make(nodes_[i], context, substitute_for(nodes_[i].type));
         states_[i] = State::done;
     }
 

@@ -1,6 +1,7 @@
 /// Images and their texels, each read and prepared once a scene however many textures show it.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -19,15 +20,16 @@ struct ImageSource {
     WrapMode wrap = WrapMode::repeat;
 };
 
-/// May be used from several threads; a second thread waits for the first one's image.
+/// May be used from several threads: different images are made at the same time; who wants one that another
+/// thread is making waits for it.
 class ImageCache {
   public:
     /// The decoded file. Throws std::runtime_error as read_image does.
     std::shared_ptr<const Image> image(const ImageSource& source);
-    std::shared_ptr<const Pyramid<float>> numbers(const ImageSource& source);
+    std::shared_ptr<const FloatTexels> numbers(const ImageSource& source);
     std::shared_ptr<const ColorTexels> colors(const ImageSource& source, TexelAdjustment adjustment,
                                               SpectrumRole role, ColorMode mode);
-    /// Forgets everything; what textures hold stays theirs.
+    /// Forgets everything, to be called when no other thread uses it; what textures hold stays theirs.
     void clear();
     /// Images read so far.
     std::size_t decoded() const { return decoded_; }
@@ -39,14 +41,26 @@ class ImageCache {
     using ColorKey = std::tuple<ImageKey, WrapMode, float, bool, SpectrumRole, ColorMode>;
     static ImageKey key(const ImageSource& source);
 
-    mutable std::recursive_mutex mutex_;
-    std::map<ImageKey, std::shared_ptr<const Image>> images_;
-    std::map<std::tuple<ImageKey, WrapMode>, std::shared_ptr<const Pyramid<float>>> numbers_;
-    std::map<ColorKey, std::shared_ptr<const ColorTexels>> colors_;
+    template <class T>
+    struct Entry {
+        std::mutex making;
+        std::shared_ptr<const T> made; ///< written under both mutexes, read under one
+    };
+    template <class Key, class T>
+    using Entries = std::map<Key, std::shared_ptr<Entry<T>>>;
+    /// What make gives, called once for a key unless it throws.
+    template <class T, class Key, class Make>
+    std::shared_ptr<const T> once(Entries<Key, T>& entries, const Key& key, const Make& make);
+
+    TexelMaker maker_;
+    mutable std::mutex mutex_;
+    Entries<ImageKey, Image> images_;
+    Entries<std::tuple<ImageKey, WrapMode>, FloatTexels> numbers_;
+    Entries<ColorKey, ColorTexels> colors_;
     // Everything made, forgotten or not, for as long as a texture holds it.
-    std::vector<std::weak_ptr<const Pyramid<float>>> made_numbers_;
+    std::vector<std::weak_ptr<const FloatTexels>> made_numbers_;
     std::vector<std::weak_ptr<const ColorTexels>> made_colors_;
-    std::size_t decoded_ = 0;
+    std::atomic<std::size_t> decoded_ = 0;
 };
 
 } // namespace alhazen

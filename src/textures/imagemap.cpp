@@ -99,7 +99,7 @@ struct ImageMap;
 
 template <>
 struct ImageMap<FloatNode> final : FloatNode, ImageMapFields {
-    std::shared_ptr<const Pyramid<float>> texels;
+    std::shared_ptr<const FloatTexels> texels;
 
     static void describe(Fields<ImageMap>& f) { describe_image(f); }
     void finish(const Node& node, BuildContext& context) {
@@ -107,7 +107,7 @@ struct ImageMap<FloatNode> final : FloatNode, ImageMapFields {
              [&](const ImageSource& source, ImageCache& cache) { texels = cache.numbers(source); });
     }
     float eval(const TexturePoint& at) const override {
-        const float v = look_up(*texels, image_place(at), [](float texel) { return texel; });
+        const float v = texels->lookup(image_place(at));
         return invert ? std::max(0.0f, 1 - scale * v) : scale * v;
     }
     Vec2i image_size() const override { return size; }

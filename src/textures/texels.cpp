@@ -1,25 +1,30 @@
 #include "textures/texels.h"
 
 #include "image/image_colors.h"
+#include "image/make_pyramid.h"
 
 namespace alhazen {
 
 namespace {
 
 // The same value at all wavelengths.
+template <class Texels>
 struct GreyTexels final : ColorTexels {
-    Pyramid<float> texels;
+    Texels texels;
     SpectrumValue one;
 
+    GreyTexels(Texels t, SpectrumRole role) : texels(std::move(t)), one(SpectrumValue::constant(1, role)) {}
     Spectrum lookup(const TexelPlace& at, const Wavelengths& lambda) const override {
         return look_up(texels, at, [](float v) { return Spectrum(v); }) * one.eval(lambda);
     }
     std::size_t bytes() const override { return texels.bytes(); }
 };
 
+template <class Texels>
 struct RgbTexels final : ColorTexels {
-    Pyramid<Vec3> texels;
+    Texels texels;
 
+    explicit RgbTexels(Texels t) : texels(std::move(t)) {}
     Spectrum lookup(const TexelPlace& at, const Wavelengths&) const override {
         return look_up(texels, at,
                        [](Vec3 c) { return Spectrum(c.x, c.y, c.z, (c.x + c.y + c.z) * (1.0f / 3)); });
@@ -27,9 +32,11 @@ struct RgbTexels final : ColorTexels {
     std::size_t bytes() const override { return texels.bytes(); }
 };
 
+template <class Texels>
 struct AlbedoTexels final : ColorTexels {
-    Pyramid<SigmoidCoefficients> texels;
+    Texels texels;
 
+    explicit AlbedoTexels(Texels t) : texels(std::move(t)) {}
     Spectrum lookup(const TexelPlace& at, const Wavelengths& lambda) const override {
         return look_up(texels, at, [&](const SigmoidCoefficients& c) { return c.eval(lambda.lambda); });
     }
@@ -43,10 +50,12 @@ struct ScaledSigmoid {
     float scale = 0;
 };
 
+template <class Texels>
 struct ScaledTexels final : ColorTexels {
-    Pyramid<ScaledSigmoid> texels;
-    const SpectralCurve* illuminant = nullptr; ///< white's light; nullptr for quantities that are not light
+    Texels texels;
+    const SpectralCurve* illuminant; ///< white's light; nullptr for quantities that are not light
 
+    ScaledTexels(Texels t, const SpectralCurve* white) : texels(std::move(t)), illuminant(white) {}
     Spectrum lookup(const TexelPlace& at, const Wavelengths& lambda) const override {
         Spectrum value = look_up(
             texels, at, [&](const ScaledSigmoid& t) { return t.sigmoid.eval(lambda.lambda) * t.scale; });
@@ -55,37 +64,16 @@ struct ScaledTexels final : ColorTexels {
     std::size_t bytes() const override { return texels.bytes(); }
 };
 
-std::vector<SigmoidCoefficients> upsample_all(const RgbColorSpace& space, const std::vector<Vec3>& colors) {
-    std::vector<SigmoidCoefficients> out(colors.size());
-    upsample(space, colors, out);
-    return out;
-}
+template <class Texels>
+struct NumberTexels final : FloatTexels {
+    Texels texels;
 
-Pyramid<SigmoidCoefficients> upsample_albedos(const RgbColorSpace& space, const Pyramid<Vec3>& colors) {
-    std::vector<Pyramid<SigmoidCoefficients>::Level> levels;
-    for (int l = 0; l < colors.levels(); ++l)
-        levels.push_back({colors.size(l), upsample_all(space, colors.level(l).texels)});
-    return {std::move(levels), colors.wrap_mode()};
-}
-
-Pyramid<ScaledSigmoid> upsample_scaled(const RgbColorSpace& space, const Pyramid<Vec3>& colors) {
-    std::vector<Pyramid<ScaledSigmoid>::Level> levels;
-    for (int l = 0; l < colors.levels(); ++l) {
-        std::vector<Vec3> normalized = colors.level(l).texels;
-        std::vector<float> scales;
-        scales.reserve(normalized.size());
-        for (Vec3& c : normalized) {
-            float scale = 2 * max_component(c);
-            c = scale > 0 ? c / scale : Vec3(0);
-            scales.push_back(scale);
-        }
-        auto sigmoids = upsample_all(space, normalized);
-        std::vector<ScaledSigmoid> texels(scales.size());
-        for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = {sigmoids[i], scales[i]};
-        levels.push_back({colors.size(l), std::move(texels)});
+    explicit NumberTexels(Texels t) : texels(std::move(t)) {}
+    float lookup(const TexelPlace& at) const override {
+        return look_up(texels, at, [](float v) { return v; });
     }
-    return {std::move(levels), colors.wrap_mode()};
-}
+    std::size_t bytes() const override { return texels.bytes(); }
+};
 
 bool has_transparency(const Image& image, int alpha) {
     for (int y = 0; y < image.height(); ++y)
@@ -94,46 +82,103 @@ bool has_transparency(const Image& image, int alpha) {
     return false;
 }
 
-} // namespace
-
-std::unique_ptr<ColorTexels> make_color_texels(const Image& image, WrapMode wrap, TexelAdjustment adjust,
-                                               SpectrumRole role, ColorMode mode) {
-    bool is_albedo = role == SpectrumRole::albedo;
-    auto adjusted = [&](float v) { return is_albedo ? std::min(1.0f, adjust(v)) : adjust(v); };
-    if (!image.has_rgb()) {
-        auto grey = std::make_unique<GreyTexels>();
-        grey->texels = channel_pyramid(image, 0, wrap).map(adjusted);
-        grey->one = SpectrumValue::constant(1, role);
-        return grey;
-    }
-    Pyramid<Vec3> colors = rgb_pyramid(image, wrap).map([&](Vec3 c) {
-        return Vec3(adjusted(c.x), adjusted(c.y), adjusted(c.z));
-    });
-    const RgbColorSpace& space = color_space_of(image);
-    if (mode == ColorMode::rgb) {
-        auto rgb = std::make_unique<RgbTexels>();
-        rgb->texels = &space == &srgb_space() ? std::move(colors) : colors.map([&](Vec3 c) {
-            return max(convert_rgb(space, srgb_space()) * c, Vec3(0));
-        });
-        return rgb;
-    }
-    if (is_albedo) {
-        auto albedo = std::make_unique<AlbedoTexels>();
-        albedo->texels = upsample_albedos(space, colors);
-        return albedo;
-    }
-    auto scaled = std::make_unique<ScaledTexels>();
-    scaled->texels = upsample_scaled(space, colors);
-    if (role == SpectrumRole::illuminant) scaled->illuminant = space.illuminant;
-    return scaled;
+Image one_channel(const Image& image, int channel) {
+    return image.select({&image.channel_names()[static_cast<std::size_t>(channel)], 1});
 }
 
-Pyramid<float> make_float_texels(const Image& image, WrapMode wrap) {
+// Linear values as a texture has them.
+struct Adjustment {
+    TexelAdjustment adjust;
+    bool is_albedo;
+
+    float operator()(float v) const { return is_albedo ? std::min(1.0f, adjust(v)) : adjust(v); }
+    Vec3 operator()(Vec3 c) const { return {(*this)(c.x), (*this)(c.y), (*this)(c.z)}; }
+};
+
+std::vector<Vec3> adjusted_rows(const Image& image, int first, int last, const Adjustment& adjusted) {
+    std::vector<Vec3> colors;
+    colors.reserve(static_cast<std::size_t>(last - first) * static_cast<std::size_t>(image.width()));
+    for (int y = first; y < last; ++y)
+        for (int x = 0; x < image.width(); ++x) colors.push_back(adjusted(image.rgb(x, y)));
+    return colors;
+}
+
+FillRows<Vec3> fill_rgb(const RgbColorSpace& space, Adjustment adjusted) {
+    if (&space == &srgb_space())
+        return fill_each<Vec3>([=](const Image& level, int x, int y) { return adjusted(level.rgb(x, y)); });
+    return fill_each<Vec3>(
+        [adjusted, to_srgb = convert_rgb(space, srgb_space())](const Image& level, int x, int y) {
+            return max(to_srgb * adjusted(level.rgb(x, y)), Vec3(0));
+        });
+}
+
+FillRows<SigmoidCoefficients> fill_albedos(const PictureUpsampler& upsampled, Adjustment adjusted) {
+    return
+        [&upsampled, adjusted](const Image& level, int first, int last, std::span<SigmoidCoefficients> out) {
+            upsampled(adjusted_rows(level, first, last, adjusted), out);
+        };
+}
+
+FillRows<ScaledSigmoid> fill_scaled(const PictureUpsampler& upsampled, Adjustment adjusted) {
+    return [&upsampled, adjusted](const Image& level, int first, int last, std::span<ScaledSigmoid> out) {
+        std::vector<Vec3> normalized = adjusted_rows(level, first, last, adjusted);
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            Vec3& c = normalized[i];
+            out[i].scale = 2 * max_component(c);
+            c = out[i].scale > 0 ? c / out[i].scale : Vec3(0);
+        }
+        std::vector<SigmoidCoefficients> sigmoids(out.size());
+        upsampled(normalized, sigmoids);
+        for (std::size_t i = 0; i < out.size(); ++i) out[i].sigmoid = sigmoids[i];
+    };
+}
+
+// The texels, in the class of textures that has them.
+template <class Kept, template <class> class Kind, class T, class... More>
+std::shared_ptr<const Kept> keep(Image image, WrapMode wrap, const FillRows<T>& fill, const More&... more) {
+    auto texels = make_pyramid<T>(std::move(image), wrap, true, fill);
+    return std::make_shared<Kind<Pyramid<T>>>(std::move(texels), more...);
+}
+
+const auto fill_numbers = fill_each<float>([](const Image& level, int x, int y) { return level.at(x, y); });
+
+} // namespace
+
+const PictureUpsampler& TexelMaker::upsampler(const RgbColorSpace& space) {
+    std::lock_guard lock(mutex_);
+    return upsamplers_.try_emplace(&space, space).first->second;
+}
+
+std::shared_ptr<const ColorTexels> TexelMaker::colors(const Image& image, WrapMode wrap,
+                                                      TexelAdjustment adjust, SpectrumRole role,
+                                                      ColorMode mode) {
+    const Adjustment adjusted{adjust, role == SpectrumRole::albedo};
+    if (!image.has_rgb()) {
+        const auto fill =
+            fill_each<float>([=](const Image& level, int x, int y) { return adjusted(level.at(x, y)); });
+        return keep<ColorTexels, GreyTexels>(one_channel(image, 0), wrap, fill, role);
+    }
+    const RgbColorSpace& space = color_space_of(image);
+    if (mode == ColorMode::rgb)
+        return keep<ColorTexels, RgbTexels>(image.to_rgb(), wrap, fill_rgb(space, adjusted));
+    if (adjusted.is_albedo)
+        return keep<ColorTexels, AlbedoTexels>(image.to_rgb(), wrap,
+                                               fill_albedos(upsampler(space), adjusted));
+    const SpectralCurve* white = role == SpectrumRole::illuminant ? space.illuminant : nullptr;
+    return keep<ColorTexels, ScaledTexels>(image.to_rgb(), wrap, fill_scaled(upsampler(space), adjusted),
+                                           white);
+}
+
+std::shared_ptr<const FloatTexels> TexelMaker::numbers(const Image& image, WrapMode wrap) {
     if (auto alpha = image.channel_index("A");
         alpha && image.channels() > 1 && has_transparency(image, *alpha))
-        return channel_pyramid(image, *alpha, wrap);
-    if (!image.has_rgb()) return channel_pyramid(image, 0, wrap);
-    return rgb_pyramid(image, wrap).map([](Vec3 c) { return (c.x + c.y + c.z) * (1.0f / 3); });
+        return keep<FloatTexels, NumberTexels>(one_channel(image, *alpha), wrap, fill_numbers);
+    if (!image.has_rgb()) return keep<FloatTexels, NumberTexels>(one_channel(image, 0), wrap, fill_numbers);
+    const auto mean = fill_each<float>([](const Image& level, int x, int y) {
+        const Vec3 c = level.rgb(x, y);
+        return (c.x + c.y + c.z) * (1.0f / 3);
+    });
+    return keep<FloatTexels, NumberTexels>(image.to_rgb(), wrap, mean);
 }
 
 } // namespace alhazen

@@ -3,9 +3,12 @@
 /// blend of two colours is the blend of their spectra, whatever the colours.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
 
 #include "color/spectrum_value.h"
+#include "color/upsample_many.h"
 #include "image/pyramid.h"
 
 namespace alhazen {
@@ -50,13 +53,29 @@ struct ColorTexels {
     virtual std::size_t bytes() const = 0;
 };
 
-/// In spectral mode sigmoid coefficients of the upsampled colours (Jakob and Hanika 2019), in RGB mode linear
-/// sRGB. An image of one channel gives the same value at all wavelengths, whatever the role (as pbrt-v4).
-std::unique_ptr<ColorTexels> make_color_texels(const Image& image, WrapMode wrap, TexelAdjustment adjustment,
-                                               SpectrumRole role, ColorMode mode);
+/// Numbers of an image.
+struct FloatTexels {
+    virtual ~FloatTexels() = default;
+    virtual float lookup(const TexelPlace& at) const = 0;
+    virtual std::size_t bytes() const = 0;
+};
 
-/// Numbers of an image: its only channel; else its alpha where that is not 1 everywhere; else the mean of its
-/// colour (as pbrt-v4).
-Pyramid<float> make_float_texels(const Image& image, WrapMode wrap);
+/// Makes texels of the images of one scene. May be used from several threads.
+class TexelMaker {
+  public:
+    /// In spectral mode sigmoid coefficients of the upsampled colours (Jakob and Hanika 2019), in RGB mode
+    /// linear sRGB. An image of one channel gives the same value at all wavelengths, whatever the role (as
+    /// pbrt-v4).
+    std::shared_ptr<const ColorTexels> colors(const Image& image, WrapMode wrap, TexelAdjustment adjust,
+                                              SpectrumRole role, ColorMode mode);
+    /// The only channel; else alpha where that is not 1 everywhere; else the mean of the colour (as pbrt-v4).
+    std::shared_ptr<const FloatTexels> numbers(const Image& image, WrapMode wrap);
+
+  private:
+    const PictureUpsampler& upsampler(const RgbColorSpace& space);
+
+    std::mutex mutex_;
+    std::map<const RgbColorSpace*, PictureUpsampler> upsamplers_;
+};
 
 } // namespace alhazen

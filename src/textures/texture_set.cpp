@@ -6,17 +6,23 @@
 
 #include <fmt/format.h>
 
+#include "base/threads.h"
+#include "describe/build_apart.h"
 #include "textures/image_cache.h"
 
 namespace alhazen {
 
 struct TextureSet::State {
+    struct Made {
+        std::mutex making;
+        bool is_made = false;
+        std::shared_ptr<const SpectrumNode> node;
+    };
     struct SpectrumEntry {
         TextureNode description;
         bool is_valid = false; ///< the check found no errors
         Vec2i image_size{0, 0};
-        bool is_made[3] = {};
-        std::shared_ptr<const SpectrumNode> by_role[3];
+        Made by_role[3];
     };
 
     std::map<std::string, std::shared_ptr<const FloatNode>> floats;
@@ -25,7 +31,7 @@ struct TextureSet::State {
     ColorMode color_mode = ColorMode::spectral;
     std::filesystem::path base_folder;
     bool lenient = false;
-    // Making a texture finds the textures it is made of.
+    // Building a texture finds the textures it is made of.
     std::recursive_mutex mutex;
 };
 
@@ -63,9 +69,25 @@ std::shared_ptr<const Family> make_node(const KindList<Family>& kinds, const Tex
     return node;
 }
 
+// Reads images at the same time. They stay in the cache, for the textures that are then built in turn, and
+// which tell what is wrong.
+void read_images(const std::vector<TextureNode>& nodes, ImageCache& images, const BuildContext& context) {
+    parallel_for(nodes.size(), 1, [&](std::size_t i) {
+        if (nodes[i].node.type != "imagemap") return;
+        Messages unheard;
+        BuildContext own = with_messages(context, unheard);
+        TextureUse use{SpectrumRole::unbounded, &images, nodes[i].is_spectrum};
+        if (nodes[i].is_spectrum)
+            make_node(spectrum_texture_kinds(), nodes[i], use, own);
+        else
+            make_node(float_texture_kinds(), nodes[i], use, own);
+    });
+}
+
 } // namespace
 
 void TextureSet::build(const std::vector<TextureNode>& nodes, BuildContext& context) {
+    read_images(nodes, state_->images, context);
     std::lock_guard lock(state_->mutex);
     context.textures = this;
     state_->floats.clear();
@@ -109,23 +131,25 @@ std::shared_ptr<const FloatNode> TextureSet::find_float(const std::string& name)
 
 std::shared_ptr<const SpectrumNode> TextureSet::find_spectrum(const std::string& name, SpectrumRole role,
                                                               Messages* messages) const {
-    std::lock_guard lock(state_->mutex);
+    std::unique_lock lock(state_->mutex);
     auto it = state_->spectra.find(name);
     if (it == state_->spectra.end() || !it->second.is_valid) return nullptr;
     State::SpectrumEntry& entry = it->second;
-    auto index = static_cast<std::size_t>(role);
-    if (!entry.is_made[index]) {
+    lock.unlock();
+    State::Made& made = entry.by_role[static_cast<std::size_t>(role)];
+    std::lock_guard making(made.making);
+    if (!made.is_made) {
         // Warnings came with the check; only errors are new.
         Messages found;
         found.lenient = state_->lenient;
         BuildContext context{found, state_->color_mode, state_->base_folder, this};
         TextureUse use{role, &state_->images, false};
-        entry.by_role[index] = make_node(spectrum_texture_kinds(), entry.description, use, context);
-        entry.is_made[index] = true;
+        made.node = make_node(spectrum_texture_kinds(), entry.description, use, context);
+        made.is_made = true;
         for (const Message& m : found.list())
             if (messages && m.kind == Message::Kind::error) messages->add_error(m.place, m.text);
     }
-    return entry.by_role[index];
+    return made.node;
 }
 
 bool TextureSet::has_float(const std::string& name) const {

@@ -8,9 +8,14 @@
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
+#include "color/upsample_many.h"
 
 namespace alhazen {
 namespace {
+
+bool same(SigmoidCoefficients a, SigmoidCoefficients b) {
+    return a.c0 == b.c0 && a.c1 == b.c1 && a.c2 == b.c2;
+}
 
 /// Linear RGB of a surface with this reflectance under the space's illuminant, from the sums over whole nm.
 Vec3d shown(const RgbColorSpace& space, const SigmoidCoefficients& c) {
@@ -99,9 +104,6 @@ TEST(Upsample, GreyIsFlatAndBlackAndWhiteExact) {
 
 TEST(Upsample, ComponentsAreClamped) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    auto same = [](SigmoidCoefficients a, SigmoidCoefficients b) {
-        return a.c0 == b.c0 && a.c1 == b.c1 && a.c2 == b.c2;
-    };
     EXPECT_TRUE(same(upsample(srgb_space(), {2, 0.5f, -1}), upsample(srgb_space(), {1, 0.5f, 0})));
     EXPECT_TRUE(same(upsample(srgb_space(), {nan, 0.5f, 0.2f}), upsample(srgb_space(), {0, 0.5f, 0.2f})));
 }
@@ -142,14 +144,24 @@ TEST(Upsample, OfManyColorsEachDependsOnItselfAlone) {
     upsample(srgb_space(), colors, all);
     std::reverse(colors.begin(), colors.end());
     upsample(srgb_space(), std::span(colors).first(some.size()), some);
-    auto same = [](SigmoidCoefficients a, SigmoidCoefficients b) {
-        return a.c0 == b.c0 && a.c1 == b.c1 && a.c2 == b.c2;
-    };
     for (std::size_t i = 0; i < some.size(); ++i) EXPECT_TRUE(same(some[i], all[all.size() - 1 - i]));
     for (std::size_t i = 0; i < 50; ++i) {
         upsample(srgb_space(), std::span(colors).subspan(i, 1), one);
         EXPECT_TRUE(same(one[0], some[i]));
     }
+}
+
+TEST(Upsample, WhatOnePictureLeavesBehindDoesNotChangeTheNext) {
+    Rng rng(11);
+    std::vector<Vec3> first(1000), second(1000);
+    for (auto* colors : {&first, &second})
+        for (Vec3& c : *colors) c = {rng.uniform(), rng.uniform(), rng.uniform()};
+    std::vector<SigmoidCoefficients> alone(1000), after(1000);
+    upsample(srgb_space(), second, alone);
+    const PictureUpsampler upsampler(srgb_space());
+    upsampler(first, after);
+    upsampler(second, after);
+    for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_TRUE(same(alone[i], after[i])) << i;
 }
 
 TEST(Upsample, ManyColorsAreClampedAndGreysAreFlat) {

@@ -1,4 +1,5 @@
 /// Image textures: which texel, which colour, which error.
+#include "base/threads.h"
 #include "tests/unit/textures/support.h"
 #include "textures/image_cache.h"
 
@@ -149,6 +150,24 @@ TEST_F(TextureTest, OneFileIsReadOnce) {
     source.encoding = Encoding::linear();
     cache.image(source);
     EXPECT_EQ(cache.decoded(), 2u);
+}
+
+TEST_F(TextureTest, ThreadsShareWhatOneOfThemReads) {
+    save("four.exr", four_colors());
+    const ImageSource source{folder() / "four.exr", Encoding{}, WrapMode::repeat};
+    ImageCache cache;
+    std::vector<std::shared_ptr<const ColorTexels>> colors(64);
+    std::vector<std::shared_ptr<const FloatTexels>> numbers(64);
+    with_threads(4, [&] {
+        parallel_for(colors.size(), 1, [&](std::size_t i) {
+            colors[i] = cache.colors(source, {}, SpectrumRole::albedo, ColorMode::spectral);
+            numbers[i] = cache.numbers(source);
+            cache.bytes();
+        });
+    });
+    EXPECT_THAT(colors, testing::Each(colors[0]));
+    EXPECT_THAT(numbers, testing::Each(numbers[0]));
+    EXPECT_EQ(cache.decoded(), 1u);
 }
 
 TEST_F(TextureTest, ForgettingImagesKeepsTextures) {
