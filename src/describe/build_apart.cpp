@@ -10,12 +10,27 @@ namespace alhazen {
 BuildContext with_messages(const BuildContext& context, Messages& messages) {
     // Names all members, so that one that is new does not compile until it is passed on.
     const auto& [unused, color_mode, base_folder, textures, materials, texture_use, mesh_reader, grid_reader,
-                 sdfs, world_from_node, reverse_orientation, film_resolution, film_diagonal, exposure_time,
-                 shutter_open, world_from_camera] = context;
-    return {messages,      color_mode,      base_folder,         textures,
-            materials,     texture_use,     mesh_reader,         grid_reader,
-            sdfs,          world_from_node, reverse_orientation, film_resolution,
-            film_diagonal, exposure_time,   shutter_open,        world_from_camera};
+                 sdfs, world_from_node, reverse_orientation, film_resolution, film_diagonal,
+                 displacement_edge_scale, exposure_time, shutter_open, world_from_camera, camera_movement] =
+        context;
+    return {messages,
+            color_mode,
+            base_folder,
+            textures,
+            materials,
+            texture_use,
+            mesh_reader,
+            grid_reader,
+            sdfs,
+            world_from_node,
+            reverse_orientation,
+            film_resolution,
+            film_diagonal,
+            displacement_edge_scale,
+            exposure_time,
+            shutter_open,
+            world_from_camera,
+            camera_movement};
 }
 
 void build_apart(std::size_t count, BuildContext& context,
