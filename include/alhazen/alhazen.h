@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -178,6 +179,9 @@ struct RenderRequest {
     std::string camera{};        ///< by name
     std::optional<std::uint64_t> seed{};
     int threads = 0; ///< 0: all
+    /// Bytes of texels of images in memory, at least 1; the others lie in a temporary file. Unset: all in
+    /// memory.
+    std::optional<std::size_t> texture_memory{};
     ColorComputation color = ColorComputation::automatic;
     /// Single parameters: "integrator.maxdepth=3", "material.clay.reflectance=.5 .4 .3".
     std::vector<std::string> overrides{};

@@ -19,6 +19,8 @@ RenderSettings to_settings(const RenderRequest& request) {
         throw make_input_error("RenderRequest", "width and height must be 1 to 65536");
     if (request.spp && *request.spp < 1) throw make_input_error("RenderRequest", "spp must be at least 1");
     if (request.threads < 0) throw make_input_error("RenderRequest", "threads must be at least 0");
+    if (request.texture_memory == 0u)
+        throw make_input_error("RenderRequest", "texture_memory must be at least 1");
     RenderSettings settings;
     settings.spp = request.spp;
     if (request.width) settings.size = Vec2i{*request.width, *request.height};
@@ -26,6 +28,7 @@ RenderSettings to_settings(const RenderRequest& request) {
     settings.camera = request.camera;
     settings.seed = request.seed;
     settings.threads = request.threads;
+    settings.texture_memory = request.texture_memory;
     if (request.color == ColorComputation::spectral) settings.color = ColorMode::spectral;
     if (request.color == ColorComputation::rgb) settings.color = ColorMode::rgb;
     settings.overrides = request.overrides;
@@ -84,7 +87,12 @@ Picture render_description(SceneDescription description, bool lenient, const std
     }
 
     Watcher watcher(request);
-    RenderStats stats = render(*world, settings, watcher.watch());
+    RenderStats stats;
+    try {
+        stats = alhazen::render(*world, settings, watcher.watch());
+    } catch (const std::runtime_error& error) {
+        throw make_input_error("RenderRequest", error.what());
+    }
     watcher.rethrow();
 
     auto content = std::make_shared<Picture::Content>();

@@ -1,6 +1,9 @@
 #include "cli/options.h"
 
+#include <cctype>
 #include <charconv>
+#include <limits>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -54,6 +57,28 @@ void read_accel(const std::string& text, RenderSettings& settings) {
     if (!settings.accel) throw CLI::ValidationError("--accel", error);
 }
 
+// "512M": bytes, in powers of 1024.
+void read_texture_memory(const std::string& text, RenderSettings& settings) {
+    constexpr std::string_view units = "KMGT";
+    std::size_t count = 0;
+    const char* end = text.data() + text.size();
+    auto [unit, error] = std::from_chars(text.data(), end, count);
+    int shift = 0;
+    if (error == std::errc{} && unit + 1 == end) {
+        const auto which = units.find(static_cast<char>(std::toupper(static_cast<unsigned char>(*unit))));
+        if (which != std::string_view::npos) {
+            shift = 10 * (static_cast<int>(which) + 1);
+            ++unit;
+        }
+    }
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+    if (error != std::errc{} || unit != end || count == 0 || count > most >> shift)
+        throw CLI::ValidationError(
+            "--texture-memory",
+            fmt::format("\"{}\" is not an amount of memory; write it as 512M or 2G (K, M, G, T)", text));
+    settings.texture_memory = count << shift;
+}
+
 } // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
@@ -85,6 +110,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--threads", s.threads, "how many threads (default: all)")
         ->check(CLI::Range(0, 4096))
         ->type_name("N");
+    command
+        .add_option_function<std::string>(
+            "--texture-memory", [&s](const std::string& text) { read_texture_memory(text, s); },
+            "texels of images in memory at most, the others in a temporary file (default: all in memory)")
+        ->type_name("SIZE");
     command.add_option("--tile-size", s.tile_size, "pixels a thread takes at a time")
         ->check(CLI::Range(1, 4096))
         ->type_name("N");

@@ -103,6 +103,17 @@ void tell_quadrature(const Quadrature& q, const World& world, bool quiet) {
     for (const QuadratureError& e : q.errors) fmt::print("{:>8}  {:.3e}\n", e.samples, e.mean_squared_error);
 }
 
+nlohmann::ordered_json texture_json(const TextureMemory& memory) {
+    nlohmann::ordered_json json;
+    json["peak_bytes"] = memory.peak_bytes;
+    if (memory.limit_bytes == 0) return json;
+    json["limit_bytes"] = memory.limit_bytes;
+    json["tiles_made"] = memory.tiles_made;
+    json["tiles_dropped"] = memory.tiles_dropped;
+    json["temporary_file_bytes"] = memory.file_bytes;
+    return json;
+}
+
 void write_stats(const RenderOptions& options, const World& world, const RenderStats& stats,
                  const Timing& timing, const Messages& messages) {
     SceneCounts counts = world.scene->counts();
@@ -120,6 +131,7 @@ void write_stats(const RenderOptions& options, const World& world, const RenderS
                     {"total", stats.rays.total()}};
     json["mrays_per_second"] = static_cast<double>(stats.rays.total()) / 1e6 / std::max(stats.seconds, 1e-9);
     json["peak_memory_bytes"] = peak_memory_bytes();
+    json["textures"] = texture_json(world.textures.memory());
     json["triangles"] = counts.triangles;
     json["primitives"] = counts.primitives;
     json["instances"] = counts.instances;

@@ -45,10 +45,110 @@ std::array<BilinearTap, 4> bilinear_taps(WrapMode mode, Vec2 uv, Vec2i size);
 /// The texel that uv lies in; nullopt: black.
 std::optional<Vec2i> nearest_texel(WrapMode mode, Vec2 uv, Vec2i size);
 
-/// A pyramid of texels of any type with + and * float (float, Vec3, or what `map` made of them).
-template <class T>
-class Pyramid {
+/// Lookups in a pyramid of texels of any type T with + and * float, wherever they lie. Pyramid has
+///     int levels() const;  Vec2i size(int level = 0) const;  WrapMode wrap_mode() const;
+/// and level(i), which has a size and the texels at(Vec2i).
+template <class Pyramid, class T>
+class PyramidLookups {
   public:
+    /// Bilinear lookup of evaluate(texel), whose result needs + and * float: texels are interpolated after
+    /// they were turned into something that may be (spectrum coefficients, for example, may not).
+    template <class F>
+    auto bilinear(int level, Vec2 uv, F evaluate) const {
+        using R = std::decay_t<decltype(evaluate(std::declval<const T&>()))>;
+        const auto& l = self().level(level);
+        R sum{};
+        for (const BilinearTap& tap : bilinear_taps(self().wrap_mode(), uv, l.size))
+            if (tap.weight != 0) sum = sum + evaluate(l.at(tap.texel)) * tap.weight;
+        return sum;
+    }
+    /// Between the two levels whose texels are nearest to `width`, a footprint in units of the image's longer
+    /// side.
+    template <class F>
+    auto trilinear(Vec2 uv, float width, F evaluate) const {
+        float l = continuous_level(width);
+        int lower = static_cast<int>(l);
+        auto a = bilinear(lower, uv, evaluate);
+        if (lower + 1 >= self().levels()) return a;
+        float t = l - static_cast<float>(lower);
+        return t == 0 ? a : a * (1 - t) + bilinear(lower + 1, uv, evaluate) * t;
+    }
+    /// The level, a fraction in 0 ... self().levels() - 1, whose texels are `width` wide.
+    float continuous_level(float width) const {
+        float top = static_cast<float>(self().levels() - 1);
+        float texels = width * static_cast<float>(std::max(self().size().x, self().size().y));
+        if (!(texels > 1)) return 0;
+        return std::min(std::log2(texels), top);
+    }
+
+    /// Over an ellipse with axes a and b (units of the image's sides), by a Gaussian that ends at its rim
+    /// (Greene and Heckbert 1986; Heckbert 1989, section 3.5): between the two levels on which the short axis
+    /// is one to two texels. An ellipse more than max_anisotropy times as long as it is wide is made wider.
+    template <class F>
+    auto ewa(Vec2 uv, Vec2 a, Vec2 b, float max_anisotropy, F evaluate) const {
+        if (length_squared(a) < length_squared(b)) std::swap(a, b);
+        float longer = length(a), shorter = length(b);
+        if (shorter * max_anisotropy < longer && shorter > 0) {
+            const float wider = longer / (shorter * max_anisotropy);
+            b *= wider;
+            shorter *= wider;
+        }
+        if (!(shorter > 0) || !std::isfinite(longer)) return bilinear(0, uv, evaluate);
+        const float l = continuous_level(shorter);
+        const int lower = static_cast<int>(l);
+        if (lower + 1 >= self().levels()) return bilinear(self().levels() - 1, uv, evaluate);
+        const float t = l - static_cast<float>(lower);
+        auto fine = over_ellipse(lower, uv, a, b, evaluate);
+        return t == 0 ? fine : fine * (1 - t) + over_ellipse(lower + 1, uv, a, b, evaluate) * t;
+    }
+
+  private:
+    template <class F>
+    auto over_ellipse(int level, Vec2 uv, Vec2 a, Vec2 b, F evaluate) const {
+        using R = std::decay_t<decltype(evaluate(std::declval<const T&>()))>;
+        const auto& l = self().level(level);
+        const Vec2 scale{static_cast<float>(l.size.x), static_cast<float>(l.size.y)};
+        const Vec2 center = uv * scale - Vec2(0.5f, 0.5f);
+        a = a * scale;
+        b = b * scale;
+        // A x^2 + B x y + C y^2 < F, a texel wider all round so that it is never between texels.
+        float A = sqr(a.y) + sqr(b.y) + 1, B = -2 * (a.x * a.y + b.x * b.y), C = sqr(a.x) + sqr(b.x) + 1;
+        const float inv_f = 1 / (A * C - sqr(B) / 4);
+        A *= inv_f;
+        B *= inv_f;
+        C *= inv_f;
+        const float determinant = 4 * A * C - sqr(B);
+        const float rx = 2 * std::sqrt(C / determinant), ry = 2 * std::sqrt(A / determinant);
+        // Beyond what integers can count.
+        if (!(std::abs(center.x) + rx < 1e9f && std::abs(center.y) + ry < 1e9f))
+            return bilinear(level, uv, evaluate);
+        R sum{};
+        float weights = 0;
+        for (int y = static_cast<int>(std::ceil(center.y - ry));
+             y <= static_cast<int>(std::floor(center.y + ry)); ++y)
+            for (int x = static_cast<int>(std::ceil(center.x - rx));
+                 x <= static_cast<int>(std::floor(center.x + rx)); ++x) {
+                const float dx = static_cast<float>(x) - center.x, dy = static_cast<float>(y) - center.y;
+                const float r2 = A * dx * dx + B * dx * dy + C * dy * dy;
+                if (r2 >= 1) continue;
+                const float weight = std::exp(-2 * r2) - std::exp(-2.0f);
+                weights += weight;
+                if (auto p = wrap_coordinate(self().wrap_mode(), {x, y}, l.size))
+                    sum = sum + evaluate(l.at(*p)) * weight;
+            }
+        return weights > 0 ? sum * (1 / weights) : bilinear(level, uv, evaluate);
+    }
+
+    const Pyramid& self() const { return static_cast<const Pyramid&>(*this); }
+};
+
+/// A pyramid in memory (of float, Vec3, or what `map` made of them).
+template <class T>
+class Pyramid : public PyramidLookups<Pyramid<T>, T> {
+  public:
+    using PyramidLookups<Pyramid<T>, T>::bilinear;
+    using PyramidLookups<Pyramid<T>, T>::trilinear;
+
     struct Level {
         Vec2i size;
         std::vector<T> texels; ///< row-major, top row first
@@ -85,58 +185,10 @@ class Pyramid {
     T bilinear(int level, Vec2 uv) const {
         return bilinear(level, uv, [](const T& t) { return t; });
     }
-    /// Bilinear lookup of evaluate(texel), whose result needs + and * float: texels are interpolated after
-    /// they were turned into something that may be (spectrum coefficients, for example, may not).
-    template <class F>
-    auto bilinear(int level, Vec2 uv, F evaluate) const {
-        using R = std::decay_t<decltype(evaluate(std::declval<const T&>()))>;
-        const Level& l = this->level(level);
-        R sum{};
-        for (const BilinearTap& tap : bilinear_taps(mode_, uv, l.size))
-            if (tap.weight != 0) sum = sum + evaluate(l.at(tap.texel)) * tap.weight;
-        return sum;
-    }
     /// Between the two levels whose texels are nearest to `width`, a footprint in units of the image's longer
     /// side.
     T trilinear(Vec2 uv, float width) const {
         return trilinear(uv, width, [](const T& t) { return t; });
-    }
-    template <class F>
-    auto trilinear(Vec2 uv, float width, F evaluate) const {
-        float l = continuous_level(width);
-        int lower = static_cast<int>(l);
-        auto a = bilinear(lower, uv, evaluate);
-        if (lower + 1 >= levels()) return a;
-        float t = l - static_cast<float>(lower);
-        return t == 0 ? a : a * (1 - t) + bilinear(lower + 1, uv, evaluate) * t;
-    }
-    /// The level, a fraction in 0 ... levels() - 1, whose texels are `width` wide.
-    float continuous_level(float width) const {
-        float top = static_cast<float>(levels() - 1);
-        float texels = width * static_cast<float>(std::max(size().x, size().y));
-        if (!(texels > 1)) return 0;
-        return std::min(std::log2(texels), top);
-    }
-
-    /// Over an ellipse with axes a and b (units of the image's sides), by a Gaussian that ends at its rim
-    /// (Greene and Heckbert 1986; Heckbert 1989, section 3.5): between the two levels on which the short axis
-    /// is one to two texels. An ellipse more than max_anisotropy times as long as it is wide is made wider.
-    template <class F>
-    auto ewa(Vec2 uv, Vec2 a, Vec2 b, float max_anisotropy, F evaluate) const {
-        if (length_squared(a) < length_squared(b)) std::swap(a, b);
-        float longer = length(a), shorter = length(b);
-        if (shorter * max_anisotropy < longer && shorter > 0) {
-            const float wider = longer / (shorter * max_anisotropy);
-            b *= wider;
-            shorter *= wider;
-        }
-        if (!(shorter > 0) || !std::isfinite(longer)) return bilinear(0, uv, evaluate);
-        const float l = continuous_level(shorter);
-        const int lower = static_cast<int>(l);
-        if (lower + 1 >= levels()) return bilinear(levels() - 1, uv, evaluate);
-        const float t = l - static_cast<float>(lower);
-        auto fine = over_ellipse(lower, uv, a, b, evaluate);
-        return t == 0 ? fine : fine * (1 - t) + over_ellipse(lower + 1, uv, a, b, evaluate) * t;
     }
 
     /// The pyramid of f(texel).
@@ -154,41 +206,6 @@ class Pyramid {
     }
 
   private:
-    template <class F>
-    auto over_ellipse(int level, Vec2 uv, Vec2 a, Vec2 b, F evaluate) const {
-        using R = std::decay_t<decltype(evaluate(std::declval<const T&>()))>;
-        const Level& l = this->level(level);
-        const Vec2 scale{static_cast<float>(l.size.x), static_cast<float>(l.size.y)};
-        const Vec2 center = uv * scale - Vec2(0.5f, 0.5f);
-        a = a * scale;
-        b = b * scale;
-        // A x^2 + B x y + C y^2 < F, a texel wider all round so that it is never between texels.
-        float A = sqr(a.y) + sqr(b.y) + 1, B = -2 * (a.x * a.y + b.x * b.y), C = sqr(a.x) + sqr(b.x) + 1;
-        const float inv_f = 1 / (A * C - sqr(B) / 4);
-        A *= inv_f;
-        B *= inv_f;
-        C *= inv_f;
-        const float determinant = 4 * A * C - sqr(B);
-        const float rx = 2 * std::sqrt(C / determinant), ry = 2 * std::sqrt(A / determinant);
-        // Beyond what integers can count.
-        if (!(std::abs(center.x) + rx < 1e9f && std::abs(center.y) + ry < 1e9f))
-            return bilinear(level, uv, evaluate);
-        R sum{};
-        float weights = 0;
-        for (int y = static_cast<int>(std::ceil(center.y - ry));
-             y <= static_cast<int>(std::floor(center.y + ry)); ++y)
-            for (int x = static_cast<int>(std::ceil(center.x - rx));
-                 x <= static_cast<int>(std::floor(center.x + rx)); ++x) {
-                const float dx = static_cast<float>(x) - center.x, dy = static_cast<float>(y) - center.y;
-                const float r2 = A * dx * dx + B * dx * dy + C * dy * dy;
-                if (r2 >= 1) continue;
-                const float weight = std::exp(-2 * r2) - std::exp(-2.0f);
-                weights += weight;
-                if (auto p = wrap_coordinate(mode_, {x, y}, l.size)) sum = sum + evaluate(l.at(*p)) * weight;
-            }
-        return weights > 0 ? sum * (1 / weights) : bilinear(level, uv, evaluate);
-    }
-
     std::vector<Level> levels_;
     WrapMode mode_ = WrapMode::repeat;
 };

@@ -158,6 +158,7 @@ class Renderer {
 RenderStats render(World& world, const RenderSettings& settings, const RenderWatch& watch) {
     RenderStats stats;
     with_threads(settings.threads, [&] { stats = Renderer(world, settings, watch).run(); });
+    world.textures.throw_if_failed();
     return stats;
 }
 

@@ -41,7 +41,8 @@ struct RenderWatch {
 };
 
 /// Renders into world.film on settings.threads threads. The image depends on the scene and the seed only: not
-/// on threads, tile size, passes or what else the machine does.
+/// on threads, tile size, passes or what else the machine does. Throws std::runtime_error if texels that lie
+/// in a temporary file could not be read.
 RenderStats render(World& world, const RenderSettings& settings, const RenderWatch& watch);
 
 } // namespace alhazen

@@ -1,6 +1,7 @@
 /// What the user asks for beside the scene file.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,8 +24,10 @@ struct RenderSettings {
     std::optional<AccelChoice> accel; ///< does not change the image, except for "sdf"
     std::optional<int> stack_entries; ///< of the walk with a short stack (1 ... 64)
     int threads = 0;                  ///< 0: all
-    std::optional<ColorMode> color;   ///< default: spectral, but rgb for integrators that are defined in it
-    int tile_size = 32;               ///< pixels; does not change the image
+    /// Bytes of texels of images in memory, the others in a temporary file. Does not change the image.
+    std::optional<std::size_t> texture_memory;
+    std::optional<ColorMode> color; ///< default: spectral, but rgb for integrators that are defined in it
+    int tile_size = 32;             ///< pixels; does not change the image
     /// Paths that a thread follows at a time, so that their rays are traced together; 1: each ray alone; 0:
     /// many where the scene does not fit the processor's caches. Does not change the image.
     int paths_in_flight = 0;

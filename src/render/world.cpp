@@ -275,6 +275,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     check_light_tracing(*world, description.integrator, *camera, description.film, context);
     check_surfaces(*world, description.integrator, description.film, context);
 
+    if (settings.texture_memory) world->textures.limit_memory(*settings.texture_memory);
     add_scene(*world, description, *camera, choose_accel(description, settings, context), context);
     messages.throw_if_errors();
     if (!world->options.disabletexturefiltering)

@@ -24,12 +24,40 @@ std::shared_ptr<const T> ImageCache::once(Entries<Key, T>& entries, const Key& k
     return made;
 }
 
+void ImageCache::limit_memory(std::size_t bytes) {
+    limit_ = bytes;
+    tiles_ = std::make_shared<TileCache>(bytes);
+    maker_.keep_in(tiles_);
+}
+
 std::shared_ptr<const Image> ImageCache::image(const ImageSource& source) {
-    return once(images_, key(source), [&] {
-        auto image = std::make_shared<const Image>(read_image(source.path, {source.encoding}));
+    const ImageKey image_key = key(source);
+    bool is_new = false;
+    auto image = once(images_, image_key, [&] {
+        auto read = std::make_shared<const Image>(read_image(source.path, {source.encoding}));
         ++decoded_;
-        return image;
+        is_new = true;
+        return read;
     });
+    if (is_new && tiles_) drop_images(image_key);
+    return image;
+}
+
+// Forgets the images that were read first, until the others are within the limit.
+void ImageCache::drop_images(const ImageKey& newest) {
+    std::lock_guard lock(mutex_);
+    in_order_.push_back(newest);
+    auto size_of = [&](const ImageKey& image_key) {
+        auto found = images_.find(image_key);
+        return found == images_.end() ? 0 : found->second->made->values().size() * sizeof(float);
+    };
+    std::size_t sum = 0;
+    for (const ImageKey& kept : in_order_) sum += size_of(kept);
+    while (sum > limit_) {
+        sum -= size_of(in_order_.front());
+        images_.erase(in_order_.front());
+        in_order_.pop_front();
+    }
 }
 
 std::shared_ptr<const FloatTexels> ImageCache::numbers(const ImageSource& source) {
@@ -55,13 +83,14 @@ std::shared_ptr<const ColorTexels> ImageCache::colors(const ImageSource& source,
 void ImageCache::clear() {
     std::lock_guard lock(mutex_);
     images_.clear();
+    in_order_.clear();
     numbers_.clear();
     colors_.clear();
 }
 
 std::size_t ImageCache::bytes() const {
     std::lock_guard lock(mutex_);
-    std::size_t sum = 0;
+    std::size_t sum = tiles_ ? tiles_->bytes() : 0;
     for (const auto& [source, entry] : images_)
         if (entry->made) sum += entry->made->values().size() * sizeof(float);
     for (const auto& texels : made_numbers_)
@@ -69,6 +98,17 @@ std::size_t ImageCache::bytes() const {
     for (const auto& texels : made_colors_)
         if (auto held = texels.lock()) sum += held->bytes();
     return sum;
+}
+
+TextureMemory ImageCache::memory() const {
+    if (tiles_) return tiles_->memory();
+    TextureMemory memory;
+    memory.peak_bytes = bytes();
+    return memory;
+}
+
+void ImageCache::throw_if_failed() const {
+    if (tiles_) tiles_->throw_if_failed();
 }
 
 } // namespace alhazen

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -24,6 +25,9 @@ struct ImageSource {
 /// thread is making waits for it.
 class ImageCache {
   public:
+    /// From now on texels lie in a temporary file, and at most so many bytes of them in memory; of decoded
+    /// images no more than that are kept for further uses. To be called before anything is read.
+    void limit_memory(std::size_t bytes);
     /// The decoded file. Throws std::runtime_error as read_image does.
     std::shared_ptr<const Image> image(const ImageSource& source);
     std::shared_ptr<const FloatTexels> numbers(const ImageSource& source);
@@ -35,6 +39,9 @@ class ImageCache {
     std::size_t decoded() const { return decoded_; }
     /// Memory of the images kept here and of the texels that textures still hold, each counted once.
     std::size_t bytes() const;
+    TextureMemory memory() const;
+    /// Throws std::runtime_error if texels could not be read while they were looked up.
+    void throw_if_failed() const;
 
   private:
     using ImageKey = std::tuple<std::string, Encoding::Kind, float>;
@@ -52,7 +59,12 @@ class ImageCache {
     template <class T, class Key, class Make>
     std::shared_ptr<const T> once(Entries<Key, T>& entries, const Key& key, const Make& make);
 
+    void drop_images(const ImageKey& newest);
+
     TexelMaker maker_;
+    std::shared_ptr<TileCache> tiles_; ///< nullptr: no limit
+    std::size_t limit_ = 0;
+    std::deque<ImageKey> in_order_; ///< of images_, where there is a limit
     mutable std::mutex mutex_;
     Entries<ImageKey, Image> images_;
     Entries<std::tuple<ImageKey, WrapMode>, FloatTexels> numbers_;

@@ -1,7 +1,7 @@
 #include "textures/texels.h"
 
 #include "image/image_colors.h"
-#include "image/make_pyramid.h"
+#include "textures/tiled_pyramid.h"
 
 namespace alhazen {
 
@@ -133,16 +133,19 @@ FillRows<ScaledSigmoid> fill_scaled(const PictureUpsampler& upsampled, Adjustmen
     };
 }
 
-// The texels, in the class of textures that has them.
-template <class Kept, template <class> class Kind, class T, class... More>
-std::shared_ptr<const Kept> keep(Image image, WrapMode wrap, const FillRows<T>& fill, const More&... more) {
-    auto texels = make_pyramid<T>(std::move(image), wrap, true, fill);
-    return std::make_shared<Kind<Pyramid<T>>>(std::move(texels), more...);
-}
-
 const auto fill_numbers = fill_each<float>([](const Image& level, int x, int y) { return level.at(x, y); });
 
 } // namespace
+
+// The texels, in the class of textures that has them.
+template <class Kept, template <class> class Kind, class T, class... More>
+std::shared_ptr<const Kept> TexelMaker::keep(Image image, WrapMode wrap, const FillRows<T>& fill,
+                                             const More&... more) const {
+    if (tiles_)
+        return std::make_shared<Kind<TiledPyramid<T>>>(TiledPyramid<T>(std::move(image), wrap, fill, tiles_),
+                                                       more...);
+    return std::make_shared<Kind<Pyramid<T>>>(make_pyramid<T>(std::move(image), wrap, true, fill), more...);
+}
 
 const PictureUpsampler& TexelMaker::upsampler(const RgbColorSpace& space) {
     std::lock_guard lock(mutex_);

@@ -9,7 +9,8 @@
 
 #include "color/spectrum_value.h"
 #include "color/upsample_many.h"
-#include "image/pyramid.h"
+#include "image/make_pyramid.h"
+#include "textures/tile_cache.h"
 
 namespace alhazen {
 
@@ -25,8 +26,8 @@ struct TexelPlace {
 };
 
 /// The value there: by one of the levels, or two, whose texels are about as large as the pixel (as pbrt-v4).
-template <class Texel, class Evaluate>
-auto look_up(const Pyramid<Texel>& texels, const TexelPlace& at, Evaluate evaluate) {
+template <class Texels, class Evaluate>
+auto look_up(const Texels& texels, const TexelPlace& at, Evaluate evaluate) {
     if (at.filter == TexelFilter::ewa) return texels.ewa(at.st, at.a, at.b, at.max_anisotropy, evaluate);
     const float width =
         2 * std::max({std::abs(at.a.x), std::abs(at.a.y), std::abs(at.b.x), std::abs(at.b.y)});
@@ -34,7 +35,7 @@ auto look_up(const Pyramid<Texel>& texels, const TexelPlace& at, Evaluate evalua
     const int level = static_cast<int>(texels.continuous_level(width));
     if (at.filter == TexelFilter::bilinear) return texels.bilinear(level, at.st, evaluate);
     const auto texel = nearest_texel(texels.wrap_mode(), at.st, texels.size(level));
-    using Value = std::decay_t<decltype(evaluate(std::declval<const Texel&>()))>;
+    using Value = std::decay_t<decltype(evaluate(texels.level(level).at(Vec2i{})))>;
     return texel ? evaluate(texels.level(level).at(*texel)) : Value(0);
 }
 
@@ -63,6 +64,8 @@ struct FloatTexels {
 /// Makes texels of the images of one scene. May be used from several threads.
 class TexelMaker {
   public:
+    /// Keeps the texels that are made from now on in these tiles, instead of in memory.
+    void keep_in(std::shared_ptr<TileCache> tiles) { tiles_ = std::move(tiles); }
     /// In spectral mode sigmoid coefficients of the upsampled colours (Jakob and Hanika 2019), in RGB mode
     /// linear sRGB. An image of one channel gives the same value at all wavelengths, whatever the role (as
     /// pbrt-v4).
@@ -73,7 +76,11 @@ class TexelMaker {
 
   private:
     const PictureUpsampler& upsampler(const RgbColorSpace& space);
+    template <class Kept, template <class> class Kind, class T, class... More>
+    std::shared_ptr<const Kept> keep(Image image, WrapMode wrap, const FillRows<T>& fill,
+                                     const More&... more) const;
 
+    std::shared_ptr<TileCache> tiles_;
     std::mutex mutex_;
     std::map<const RgbColorSpace*, PictureUpsampler> upsamplers_;
 };

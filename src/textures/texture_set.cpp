@@ -86,6 +86,10 @@ void read_images(const std::vector<TextureNode>& nodes, ImageCache& images, cons
 
 } // namespace
 
+void TextureSet::limit_memory(std::size_t bytes) {
+    state_->images.limit_memory(bytes);
+}
+
 void TextureSet::build(const std::vector<TextureNode>& nodes, BuildContext& context) {
     read_images(nodes, state_->images, context);
     std::lock_guard lock(state_->mutex);
@@ -174,6 +178,14 @@ std::optional<Vec2i> TextureSet::image_size(const std::string& name) const {
 std::size_t TextureSet::bytes() const {
     std::lock_guard lock(state_->mutex);
     return state_->images.bytes();
+}
+
+TextureMemory TextureSet::memory() const {
+    return state_->images.memory();
+}
+
+void TextureSet::throw_if_failed() const {
+    state_->images.throw_if_failed();
 }
 
 std::vector<std::string> TextureSet::float_names() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "textures/texture.h"
+#include "textures/texture_memory.h"
 
 namespace alhazen {
 
@@ -35,6 +36,9 @@ class TextureSet {
     TextureSet(TextureSet&&) noexcept;
     TextureSet& operator=(TextureSet&&) noexcept;
 
+    /// Keeps at most that many bytes of the texels of images in memory, to be called before build: they lie
+    /// in a temporary file, in tiles that are read when they are looked up. Does not change them.
+    void limit_memory(std::size_t bytes);
     /// Builds every node, adding errors to the context; later textures may refer to earlier ones. Duplicate
     /// names of one kind are errors. Sets context.textures to this set.
     void build(const std::vector<TextureNode>& nodes, BuildContext& context);
@@ -54,6 +58,9 @@ class TextureSet {
     std::optional<Vec2i> image_size(const std::string& name) const;
     /// Memory of images and tables, each counted once however many textures share it.
     std::size_t bytes() const;
+    TextureMemory memory() const;
+    /// Throws std::runtime_error if texels could not be read while they were looked up, and were zero.
+    void throw_if_failed() const;
     /// Sorted.
     std::vector<std::string> float_names() const;
     std::vector<std::string> spectrum_names() const;

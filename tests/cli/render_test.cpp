@@ -54,6 +54,37 @@ TEST_F(Render, SizeCropAndSamples) {
         for (int x = 0; x < 20; ++x) EXPECT_EQ(part.rgb(x, y), whole.rgb(x + 10, y + 5));
 }
 
+TEST_F(Render, TextureMemoryDoesNotChangeThePicture) {
+    Image image = Image::rgb_image(300, 200);
+    for (int y = 0; y < 200; ++y)
+        for (int x = 0; x < 300; ++x)
+            image.set_rgb(x, y,
+                          {0.001f * static_cast<float>(x * y % 997), 0.3f, 0.004f * static_cast<float>(y)});
+    write_image(path("picture.png"), image);
+    write("textured.pbrt", file_text(path("scene.pbrt")) + R"(
+Texture "picture" "spectrum" "imagemap" "string filename" "picture.png" "string filter" "ewa"
+Material "diffuse" "texture reflectance" "picture"
+Shape "bilinearmesh" "point3 P" [ -4 -4 2  4 -4 2  -4 4 2  4 4 2 ]
+)");
+    ASSERT_EQ(alhazen("render textured.pbrt -o a.pfm --stats a.json").exit_code, 0);
+    ASSERT_EQ(alhazen("render textured.pbrt -o b.pfm --stats b.json --texture-memory 10k").exit_code, 0);
+    EXPECT_EQ(file_text(path("a.pfm")), file_text(path("b.pfm")));
+    auto whole = nlohmann::json::parse(file_text(path("a.json")))["textures"];
+    auto limited = nlohmann::json::parse(file_text(path("b.json")))["textures"];
+    EXPECT_GE(whole["peak_bytes"], 300 * 200 * 12);
+    EXPECT_EQ(limited["limit_bytes"], 10240);
+    EXPECT_GT(limited["peak_bytes"], 0);
+    EXPECT_GT(limited["tiles_made"], 0);
+    EXPECT_GE(limited["temporary_file_bytes"], 300 * 200 * 12);
+    for (const char* folder : {"none", "scene.pbrt"}) {
+        Outcome o = shell(fmt::format("TMPDIR={} {} render textured.pbrt -o c.pfm --texture-memory 1M",
+                                      folder, ALHAZEN_PROGRAM));
+        EXPECT_EQ(o.exit_code, 2);
+        EXPECT_THAT(o.err, HasSubstr("picture.png\": temporary file: there is no folder for it where"));
+        EXPECT_FALSE(exists("c.pfm"));
+    }
+}
+
 TEST_F(Render, QuietPrintsNothing) {
     Outcome o = alhazen("render scene.pbrt -o a.png --quiet");
     EXPECT_EQ(o.exit_code, 0);
@@ -210,6 +241,9 @@ TEST_F(Render, ArgumentsThatAreWrong) {
     expect_error("render scene.pbrt --tile-size 0", "--tile-size");
     expect_error("render scene.pbrt --in-flight 0", "--in-flight");
     expect_error("render scene.pbrt --color cmyk", "--color");
+    for (const char* size : {"0", "-1", "2X", "1.5G", "M", "99999999999999T", "12MM", "\"\""})
+        expect_error(fmt::format("render scene.pbrt --texture-memory {}", size),
+                     "is not an amount of memory");
     expect_error("render scene.pbrt --stats none/s.json -o a.png", "cannot write \"none/s.json\"");
     expect_error("render scene.pbrt --set maxdepth=3", "write it as FAMILY.PARAMETER=VALUE");
     expect_error("render scene.pbrt --set integrator.maxdept=3",

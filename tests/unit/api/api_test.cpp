@@ -1,5 +1,6 @@
 #include <alhazen/alhazen.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -87,6 +88,18 @@ TEST(Api, RequestOverridesTheScene) {
     EXPECT_EQ(mean(picture), 0);
 }
 
+TEST(Api, TextureMemoryDoesNotChangeThePicture) {
+    const auto file = std::filesystem::path(testing::TempDir()) / "alhazen-api-texture-memory.png";
+    coded_scene().render().write(file);
+    SceneModel scene = coded_scene();
+    scene.color_texture("picture", "imagemap", {{"filename", file.string()}});
+    scene.material("clay", "phong", {{"diffuse", alhazen::texture("picture")}});
+    const Picture whole = scene.render(), limited = scene.render({.texture_memory = 1});
+    std::filesystem::remove(file);
+    EXPECT_GT(mean(whole), 0);
+    EXPECT_TRUE(std::ranges::equal(whole.pixels(), limited.pixels()));
+}
+
 TEST(Api, NamesUsedAgainReplace) {
     SceneModel scene = coded_scene();
     Picture before = scene.render();
@@ -170,6 +183,7 @@ TEST(Api, WrongUseIsToldAtOnce) {
     EXPECT_THROW(scene.render({.width = 10}), InputError);
     EXPECT_THROW(scene.render({.width = 10, .height = 0}), InputError);
     EXPECT_THROW(scene.render({.spp = 0}), InputError);
+    EXPECT_THROW(scene.render({.texture_memory = 0}), InputError);
     EXPECT_THROW(scene.render({.threads = -1}), InputError);
     EXPECT_EQ(notices_of(scene, {.integrator = "pat"}).size(), 1u);
 }
