@@ -17,11 +17,6 @@ struct EnumNames<MappingKind> {
 /// What a pixel covers in texture coordinates: an ellipse with these axes, each as long as the pixel is wide.
 struct TextureFootprint {
     Vec2 a, b;
-
-    /// Along one coordinate, at most.
-    float largest_step() const {
-        return std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
-    }
 };
 
 /// A base of textures that vary over two coordinates.

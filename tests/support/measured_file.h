@@ -2,7 +2,6 @@
 /// Trowbridge and Reitz with a reflectance that rises evenly with the wavelength.
 #pragma once
 
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -23,9 +22,7 @@ struct FieldToWrite {
 
 template <class T>
 std::string bytes_of(const std::vector<T>& values) {
-    std::string bytes(values.size() * sizeof(T), '\0');
-    std::memcpy(bytes.data(), values.data(), bytes.size());
-    return bytes;
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 template <class T>
 std::string bytes_of(T value) {
