@@ -6,14 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "base/file.h"
+#include "benchmarks/page_marks.h"
 #include "benchmarks/validation/facts.h"
 #include "lab/reference_comparison.h"
 
 namespace alhazen::bench {
 namespace {
-
-constexpr std::string_view begin_mark = "<!-- ablations -->", end_mark = "<!-- end of ablations -->";
 
 struct Arguments {
     ReferenceComparisonOptions options;
@@ -103,15 +101,6 @@ std::string measure(const Arguments& a) {
     return table + "\n\n";
 }
 
-void put_into(const std::filesystem::path& page, const std::string& table) {
-    const std::string text = read_file(page);
-    const std::size_t begin = text.find(begin_mark), end = text.find(end_mark);
-    if (begin == std::string::npos || end == std::string::npos || end < begin)
-        throw std::runtime_error(
-            fmt::format("{}: the page has no marks {} and {}", page.string(), begin_mark, end_mark));
-    write_file(page, text.substr(0, begin + begin_mark.size()) + "\n" + table + text.substr(end));
-}
-
 int run(const Arguments& a) {
     if (!std::filesystem::exists(a.scenes)) {
         fmt::print("The scenes are not there: {}\n", a.scenes);
@@ -119,7 +108,7 @@ int run(const Arguments& a) {
     }
     const std::string table = measure(a);
     fmt::print("{}", table);
-    if (!a.page.empty()) put_into(a.page, table);
+    if (!a.page.empty()) put_between_marks(a.page, "ablations", table);
     return 0;
 }
 

@@ -7,14 +7,13 @@
 
 #include "base/file.h"
 #include "benchmarks/accel/suite.h"
+#include "benchmarks/page_marks.h"
 #include "lab/bar_plot.h"
 #include "lab/timing.h"
 
 namespace alhazen::bench {
 
 namespace {
-
-constexpr std::string_view begin_mark = "<!-- figures -->", end_mark = "<!-- end of figures -->";
 
 std::string text(const Json& record, const char* key) {
     return record.at(key).get<std::string>();
@@ -143,16 +142,7 @@ class Figures {
     }
     void say(const std::string& paragraph) { text_ += paragraph + "\n\n"; }
     /// Puts what there is in the place of what stood between the marks.
-    void write() const {
-        std::string page = read_file(page_);
-        const std::size_t begin = page.find(begin_mark), end = page.find(end_mark);
-        if (begin == std::string::npos || end == std::string::npos || end < begin)
-            throw std::runtime_error(
-                fmt::format("{} has no \"{}\" and \"{}\"", page_.string(), begin_mark, end_mark));
-        const std::size_t first = begin + begin_mark.size();
-        page.replace(first, end - first, "\n\n" + text_);
-        write_file(page_, page);
-    }
+    void write() const { put_between_marks(page_, "figures", "\n" + text_); }
 
   private:
     std::filesystem::path page_;

@@ -1,8 +1,10 @@
 /// The scenes that another renderer made reference images of, and what it took it.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace alhazen::bench {
 
@@ -20,6 +22,12 @@ struct SceneFacts {
     /// How far the means differ by design, at most; docs/validation.md says why. 0: they do not.
     double known_difference = 0;
 };
+
+/// "agrees", "differs by design" where that explains it, else "DIFFERS"; agrees, the ratios of the means and
+/// the mean square of z are those of the ReferenceComparison.
+std::string_view verdict_on(const SceneFacts& facts, bool agrees, const std::array<double, 3>& mean_ratio,
+                            double mean_z2);
+inline constexpr std::string_view differs = "DIFFERS";
 
 /// In the order of the page. The figures are pbrt-v4's, as the scenes' README has them.
 std::span<const SceneFacts> validation_scenes();
