@@ -43,7 +43,6 @@ struct Flight::Result {
     Spectrum radiance = 0;
     Wavelengths lambda;
     float weight = 1;
-    VisibleSurface surface;
     bool is_done = false;
 };
 
@@ -62,7 +61,8 @@ Vec3 movement(const Camera& camera, CameraSample at, Vec2 step, const VisibleSur
 } // namespace
 
 Flight::Flight(World& world, int paths, bool centred)
-    : world_(world), centred_(centred), results_(ring_size) {
+    : world_(world), centred_(centred), results_(ring_size),
+      surfaces_(world.film->wants_surfaces() ? ring_size : 0) {
     if (paths <= 0) paths = default_paths_in_flight(*world.scene);
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(paths); ++i)
         paths_.push_back(std::make_unique<Path>(i));
@@ -121,8 +121,10 @@ bool Flight::start_next(Path& path) {
         auto camera_ray = world_.camera->ray(at);
         path.context.emplace(*world_.scene, stream, lambda, path.arena, counts.rays,
                              paths_.size() > 1 ? &queue_ : nullptr, path.number);
-        path.surface = {};
-        if (world_.film->wants_surfaces()) path.context->surface = &path.surface;
+        if (!surfaces_.empty()) {
+            path.surface = {};
+            path.context->surface = &path.surface;
+        }
         if (camera_ray) {
             path.camera_weight = camera_ray->weight;
             path.task.emplace(world_.integrator->radiance(camera_ray->ray, *path.context));
@@ -154,12 +156,14 @@ void Flight::settle(Path& path) {
 
 void Flight::finish(Path& path, Spectrum radiance) {
     Result& result = results_[path.order % ring_size];
-    VisibleSurface& surface = path.surface;
-    if (surface.is_there) {
-        surface.dpdx = movement(*world_.camera, path.camera_sample, {1, 0}, surface);
-        surface.dpdy = movement(*world_.camera, path.camera_sample, {0, 1}, surface);
+    result = {path.pixel, path.sample, radiance, path.context->lambda, path.filter_weight, true};
+    if (!surfaces_.empty()) {
+        VisibleSurface& surface = surfaces_[path.order % ring_size] = path.surface;
+        if (surface.is_there) {
+            surface.dpdx = movement(*world_.camera, path.camera_sample, {1, 0}, surface);
+            surface.dpdy = movement(*world_.camera, path.camera_sample, {0, 1}, surface);
+        }
     }
-    result = {path.pixel, path.sample, radiance, path.context->lambda, path.filter_weight, surface, true};
     path.task.reset();
     if (path.order == added_) add_finished();
 }
@@ -169,7 +173,8 @@ void Flight::add_finished() {
         Result& r = results_[added_ % ring_size];
         r.is_done = false;
         if (r.radiance.is_finite()) {
-            if (r.surface.is_there) world_.film->add_surface(r.pixel, r.surface);
+            if (const auto i = added_ % ring_size; i < surfaces_.size() && surfaces_[i].is_there)
+                world_.film->add_surface(r.pixel, surfaces_[i]);
             world_.film->add(r.pixel, r.radiance, r.lambda, r.weight);
             continue;
         }

@@ -49,7 +49,8 @@ class Flight {
     std::uint64_t added_ = 0;            // to the film
     RayQueue queue_;
     std::vector<std::unique_ptr<Path>> paths_;
-    std::vector<Result> results_; // a ring: samples end in another order than they begin
+    std::vector<Result> results_;          // a ring: samples end in another order than they begin
+    std::vector<VisibleSurface> surfaces_; // of the results, for films that want them
 };
 
 } // namespace alhazen
