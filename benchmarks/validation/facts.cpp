@@ -24,9 +24,7 @@ std::span<const SceneFacts> validation_scenes() {
 std::string_view verdict_on(const SceneFacts& facts, bool agrees, const std::array<double, 3>& mean_ratio,
                             double mean_z2) {
     if (agrees) return "agrees";
-    // Elsewhere in the picture than in its means a known difference shows in proportion.
-    constexpr double largest_z2 = 10;
-    bool is_known = facts.known_difference > 0 && mean_z2 < largest_z2;
+    bool is_known = facts.known_difference > 0 && mean_z2 < largest_known_z2;
     for (double ratio : mean_ratio) is_known = is_known && std::abs(ratio - 1) <= facts.known_difference;
     return is_known ? "differs by design" : differs;
 }

@@ -23,6 +23,10 @@ struct SceneFacts {
     double known_difference = 0;
 };
 
+/// Of the mean square of z: a known difference shows elsewhere in the picture in proportion to that of its
+/// means.
+inline constexpr double largest_known_z2 = 10;
+
 /// "agrees", "differs by design" where that explains it, else "DIFFERS"; agrees, the ratios of the means and
 /// the mean square of z are those of the ReferenceComparison.
 std::string_view verdict_on(const SceneFacts& facts, bool agrees, const std::array<double, 3>& mean_ratio,
