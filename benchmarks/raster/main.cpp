@@ -24,7 +24,7 @@ struct Options {
     std::vector<int> samples{1, 4};
     Vec2i size{1280, 720};
     int threads = 2, repeat = 15;
-    bool shadows = false;
+    bool shadows = false, alone = false;
 };
 
 SceneDescription describe(const std::string& scene, Messages& messages) {
@@ -71,24 +71,27 @@ double visibility_milliseconds(const World& world, const Options& options) {
 }
 
 void run(const std::string& scene, int samples, const Options& options) {
-    auto raster = make_world(scene, options, samples, false),
-         rays = make_world(scene, options, samples, true);
-    std::vector<double> visible, whole, cast, ratio, busy;
+    auto raster = make_world(scene, options, samples, false);
+    auto rays = options.alone ? nullptr : make_world(scene, options, samples, true);
+    std::vector<double> visible, whole, cast, ratio, busy, busy_visible;
     for (int i = 0; i < options.repeat; ++i) {
+        const double start = processor_milliseconds();
         visible.push_back(visibility_milliseconds(*raster, options));
         const double before = processor_milliseconds();
+        busy_visible.push_back((before - start) / options.threads);
         whole.push_back(milliseconds(*raster, options));
         busy.push_back((processor_milliseconds() - before) / options.threads);
+        if (!rays) continue;
         cast.push_back(milliseconds(*rays, options));
         ratio.push_back(cast.back() / whole.back());
     }
     std::sort(whole.begin(), whole.end());
-    fmt::print(
-        "{:<40} {:>8} triangles {:>3} samples: visibility {:6.1f} ms, picture {:6.1f} ms (best {:.1f}, "
-        "processor {:.1f} a thread), by rays "
-        "{:7.1f} ms, x{:.1f}\n",
-        scene, raster->scene->counts().triangles, samples, median_of(visible), median_of(whole),
-        whole.front(), median_of(busy), median_of(cast), median_of(ratio));
+    fmt::print("{:<40} {:>8} triangles {:>3} samples: visibility {:6.1f} ms (processor {:.1f} a thread), "
+               "picture {:6.1f} ms (best {:.1f}, processor {:.1f} a thread)",
+               scene, raster->scene->counts().triangles, samples, median_of(visible), median_of(busy_visible),
+               median_of(whole), whole.front(), median_of(busy));
+    if (rays) fmt::print(", by rays {:7.1f} ms, x{:.1f}", median_of(cast), median_of(ratio));
+    fmt::print("\n");
     std::fflush(stdout);
 }
 
@@ -107,6 +110,7 @@ int main(int argc, char** argv) {
     app.add_option("--threads", options.threads, "threads");
     app.add_option("--repeat", options.repeat, "runs of each");
     app.add_flag("--shadows", options.shadows, "with shadow maps");
+    app.add_flag("--alone", options.alone, "no pictures by rays");
     CLI11_PARSE(app, argc, argv);
     for (const std::string& scene : options.scenes)
         for (int samples : options.samples) run(scene, samples, options);

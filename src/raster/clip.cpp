@@ -34,7 +34,7 @@ ClipPolygon clip_triangle(const std::array<ClipCorner, 3>& triangle, double near
     ClipPolygon polygon;
     for (const ClipCorner& c : triangle) polygon.corners[polygon.count++] = c;
     // The rounding of a cut must not leave a corner beyond the band.
-    constexpr double low = guard_low + 1, high = guard_high - 1;
+    constexpr double low = raster_guard_low + 1, high = raster_guard_high - 1;
     cut(polygon, [&](const ClipCorner& c) { return c.depth - near_depth; });
     cut(polygon, [&](const ClipCorner& c) { return c.x - low * c.w; });
     cut(polygon, [&](const ClipCorner& c) { return high * c.w - c.x; });

@@ -2,31 +2,58 @@
 
 #include "base/threads.h"
 #include "raster/clip.h"
+#include "raster/setup.h"
 
 namespace alhazen {
+
+template <class Nearest>
+void TileBins::sort(const std::vector<Entry>& entries, std::vector<std::uint32_t>& counters,
+                    const Nearest& nearest) {
+    for (const Entry& e : entries)
+        if (counters[e.tile]++ == 0) runs_.push_back({e.tile, 0, 0, -infinity});
+    std::uint32_t place = 0;
+    for (Run& run : runs_) {
+        run.begin = place;
+        place += counters[run.tile];
+        run.end = place;
+        counters[run.tile] = run.begin;
+    }
+    things_.resize(entries.size());
+    for (const Entry& e : entries) things_[counters[e.tile]++] = e.thing;
+    for (Run& run : runs_) {
+        counters[run.tile] = 0;
+        for (std::uint32_t i = run.begin; i < run.end; ++i)
+            run.q_max = std::max(run.q_max, nearest(things_[i]));
+    }
+}
 
 namespace {
 
 constexpr std::uint32_t chunk_size = 1024;
 
-enum Side : std::uint8_t { left = 1, right = 2, above = 4, below = 8, behind = 16, beyond_guard = 32 };
-
-/// A mesh's vertex on the film.
-struct Vertex {
-    ClipCorner clip;
-    FilmCorner film;
-    std::uint8_t sides;
-};
+RasterProjection projection_of(const RasterView& view, const Matrix4& film_from_object) {
+    RasterProjection p;
+    for (std::size_t r = 0; r < 4; ++r)
+        for (std::size_t c = 0; c < 4; ++c) p.rows[r][c] = film_from_object.m[r][c];
+    p.left = view.part.lo.x;
+    p.right = view.part.hi.x;
+    p.above = view.part.lo.y;
+    p.below = view.part.hi.y;
+    p.near_depth = view.near_depth;
+    p.is_perspective = view.is_perspective;
+    return p;
+}
 
 class ChunkMaker {
   public:
-    ChunkMaker(const std::vector<Draw>& draws, const RasterView& view, RasterChunk& chunk)
-        : draws_(draws), view_(view), chunk_(chunk), grid_(view.part.hi) {}
+    ChunkMaker(const std::vector<Draw>& draws, const RasterView& view, const RasterKernel& kernel,
+               RasterChunk& chunk)
+        : draws_(draws), view_(view), kernel_(kernel), chunk_(chunk), grid_(view.part.hi) {}
 
     void make() {
         for (const RasterChunk::Run& run : chunk_.runs) {
             run_ = run;
-            film_from_object_ = draws_[run.draw].film_from_object;
+            projection_ = projection_of(view_, draws_[run.draw].film_from_object);
             if (draws_[run.draw].is_whole_object()) {
                 add_cast(draws_[run.draw].object->bounds(), 0);
                 continue;
@@ -40,90 +67,88 @@ class ChunkMaker {
                     add_cast(shape.bounds(run.first + i), run.first + i);
         }
         std::vector<std::uint32_t> counters(grid_.count());
-        chunk_.solid_bins.sort(solid_entries_, counters);
-        chunk_.cutout_bins.sort(cutout_entries_, counters);
-        chunk_.cast_bins.sort(cast_entries_, counters);
+        auto nearest = [this](std::uint32_t thing) { return chunk_.triangles[thing].q_max; };
+        chunk_.solid_bins.sort(solid_entries_, counters, nearest);
+        chunk_.cutout_bins.sort(cutout_entries_, counters, nearest);
+        chunk_.cast_bins.sort(cast_entries_, counters,
+                              [this](std::uint32_t thing) { return chunk_.casts[thing].q_max; });
     }
 
   private:
-    ClipCorner project(Vec3 p) const {
-        const auto& m = film_from_object_.m;
+    void project(std::span<const Vec3> points, RasterCorner* corners, std::uint8_t* sides) const {
+        static_assert(sizeof(Vec3) == 3 * sizeof(float));
+        kernel_.project(projection_, &points.data()->x, points.size(), corners, sides);
+    }
+    // With the same bits as the kernel's.
+    ClipCorner clip_corner(Vec3 p) const {
         const Vec3d v(p);
-        auto row = [&](std::size_t i) { return m[i][0] * v.x + m[i][1] * v.y + m[i][2] * v.z + m[i][3]; };
+        auto row = [&](std::size_t r) {
+            const auto& m = projection_.rows[r];
+            return m[0] * v.x + m[1] * v.y + m[2] * v.z + m[3];
+        };
         return {row(0), row(1), row(2), row(3)};
-    }
-    FilmCorner divide(const ClipCorner& c) const {
-        if (!view_.is_perspective) return {c.x, c.y, -c.depth};
-        const double inverse = 1 / c.w;
-        return {c.x * inverse, c.y * inverse, inverse};
-    }
-    // False for NaN.
-    static bool is_within_guard(const FilmCorner& c) {
-        return c.x >= guard_low && c.x <= guard_high && c.y >= guard_low && c.y <= guard_high;
-    }
-    Vertex vertex(Vec3 p) const {
-        Vertex v;
-        v.clip = project(p);
-        const ClipCorner& c = v.clip;
-        const Rect2i& part = view_.part;
-        auto bit = [](bool is_set, Side side) { return static_cast<std::uint8_t>(is_set ? side : 0); };
-        v.sides =
-            static_cast<std::uint8_t>(bit(c.x < part.lo.x * c.w, left) | bit(c.x > part.hi.x * c.w, right) |
-                                      bit(c.y < part.lo.y * c.w, above) | bit(c.y > part.hi.y * c.w, below) |
-                                      bit(!(c.depth >= view_.near_depth), behind));
-        if (v.sides & behind) return v;
-        v.film = divide(c);
-        v.sides = static_cast<std::uint8_t>(v.sides | bit(!is_within_guard(v.film), beyond_guard));
-        return v;
     }
 
     void add_triangles(const TriangleMesh& mesh) {
         const int* indices = mesh.indices.data() + std::size_t{3} * run_.first;
         const std::size_t count = std::size_t{3} * run_.count;
         const auto [lo, hi] = std::minmax_element(indices, indices + count);
-        const int first = *lo, range = *hi - *lo + 1;
+        const std::size_t range = static_cast<std::size_t>(*hi - *lo) + 1;
         // Vertices are shared by six triangles or so, mostly within the chunk.
-        if (range <= static_cast<int>(count)) {
-            std::vector<Vertex> vertices(static_cast<std::size_t>(range));
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                vertices[i] = vertex(mesh.P[static_cast<std::size_t>(first) + i]);
-            auto at = [&](int i) -> const Vertex& { return vertices[static_cast<std::size_t>(i - first)]; };
-            for (std::uint32_t i = 0; i < run_.count; ++i)
-                add_triangle(at(indices[3 * i]), at(indices[3 * i + 1]), at(indices[3 * i + 2]),
-                             run_.first + i);
-        } else {
-            for (std::uint32_t i = 0; i < run_.count; ++i) {
-                auto [a, b, c] = mesh.vertices(run_.first + i);
-                add_triangle(vertex(a), vertex(b), vertex(c), run_.first + i);
-            }
+        const bool is_shared = range <= count;
+        std::vector<Vec3> gathered(is_shared ? 0 : count);
+        for (std::size_t i = 0; i < gathered.size(); ++i)
+            gathered[i] = mesh.P[static_cast<std::size_t>(indices[i])];
+        const std::span<const Vec3> points =
+            is_shared ? std::span(mesh.P).subspan(static_cast<std::size_t>(*lo), range) : std::span(gathered);
+        const std::size_t first = chunk_.corners.size();
+        chunk_.corners.resize(first + points.size());
+        sides_.resize(points.size());
+        project(points, chunk_.corners.data() + first, sides_.data());
+        for (std::uint32_t i = 0; i < run_.count; ++i) {
+            std::array<std::size_t, 3> at;
+            for (std::size_t c = 0; c < 3; ++c)
+                at[c] = is_shared ? static_cast<std::size_t>(indices[3 * i + c] - *lo) : 3 * i + c;
+            add_triangle(points, first, at, run_.first + i);
         }
     }
 
-    void add_triangle(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t primitive) {
-        if (a.sides & b.sides & c.sides & ~beyond_guard) return;
-        if ((a.sides | b.sides | c.sides) & (behind | beyond_guard)) {
-            add_clipped({a.clip, b.clip, c.clip}, primitive);
-            return;
-        }
-        const std::array<FilmCorner, 3> corners{a.film, b.film, c.film};
-        add(corners, nullptr, primitive);
+    // Of points, of which the first is the corner of that number.
+    void add_triangle(std::span<const Vec3> points, std::size_t first, const std::array<std::size_t, 3>& at,
+                      std::uint32_t primitive) {
+        const std::uint8_t a = sides_[at[0]], b = sides_[at[1]], c = sides_[at[2]];
+        if (a & b & c & ~raster_beyond_guard) return;
+        if ((a | b | c) & (raster_behind | raster_beyond_guard))
+            add_clipped({clip_corner(points[at[0]]), clip_corner(points[at[1]]), clip_corner(points[at[2]])},
+                        primitive);
+        else
+            add(first + at[0], first + at[1], first + at[2], RasterTriangle::no_plane, primitive);
     }
 
     void add_clipped(const std::array<ClipCorner, 3>& triangle, std::uint32_t primitive) {
         const ClipPolygon polygon = clip_triangle(triangle, view_.near_depth);
         if (polygon.count < 3) return;
-        const NearnessPlane plane = exact_plane(triangle);
-        std::array<FilmCorner, ClipPolygon::max_corners> corners;
+        std::array<RasterCorner, ClipPolygon::max_corners> corners;
         for (std::size_t i = 0; i < polygon.count; ++i) {
-            corners[i] = divide(polygon.corners[i]);
-            if (!is_within_guard(corners[i])) return;
+            const ClipCorner& c = polygon.corners[i];
+            const double inverse = view_.is_perspective ? 1 / c.w : 1;
+            const double x = c.x * inverse, y = c.y * inverse;
+            // False for NaN.
+            const bool is_within = x >= raster_guard_low && x <= raster_guard_high && y >= raster_guard_low &&
+                                   y <= raster_guard_high;
+            if (!is_within) return;
+            corners[i] = make_corner(x, y, view_.is_perspective ? inverse : -c.depth);
         }
+        const std::size_t first = chunk_.corners.size();
+        const auto plane = static_cast<std::uint16_t>(chunk_.planes.size());
+        chunk_.corners.insert(chunk_.corners.end(), corners.begin(), corners.begin() + polygon.count);
+        chunk_.planes.push_back(exact_plane(triangle));
         for (std::size_t i = 1; i + 1 < polygon.count; ++i)
-            add({corners[0], corners[i], corners[i + 1]}, &plane, primitive);
+            add(first, first + i, first + i + 1, plane, primitive);
     }
 
     // Of the whole triangle: a x + b y + c w = nearness w at the corners.
-    NearnessPlane exact_plane(const std::array<ClipCorner, 3>& t) const {
+    RasterPlane exact_plane(const std::array<ClipCorner, 3>& t) const {
         std::array<Vec3d, 3> v;
         Vec3d sum;
         for (std::size_t i = 0; i < 3; ++i) v[i] = {t[i].x, t[i].y, t[i].w};
@@ -135,16 +160,22 @@ class ChunkMaker {
         return {sum.z, sum.x, sum.y};
     }
 
-    // plane: nullptr for that through the corners.
-    void add(const std::array<FilmCorner, 3>& corners, const NearnessPlane* plane, std::uint32_t primitive) {
-        auto triangle = set_up_triangle(corners, plane, view_.part, view_.single_sample);
+    // Corners are numbers in the chunk.
+    void add(std::size_t a, std::size_t b, std::size_t c, std::uint16_t plane, std::uint32_t primitive) {
+        const std::vector<RasterCorner>& corners = chunk_.corners;
+        auto triangle = set_up_triangle(corners[a], corners[b], corners[c], view_.part, view_.single_sample);
         if (!triangle) return;
+        triangle->corner[0] = static_cast<std::uint16_t>(a);
+        triangle->corner[1] = static_cast<std::uint16_t>(b);
+        triangle->corner[2] = static_cast<std::uint16_t>(c);
+        triangle->plane = plane;
         triangle->draw = run_.draw;
         triangle->primitive = primitive;
         const auto number = static_cast<std::uint32_t>(chunk_.triangles.size());
         std::vector<TileBins::Entry>& entries = is_solid_ ? solid_entries_ : cutout_entries_;
         for_tiles(*triangle, [&](int tx, int ty) {
-            if (!misses_tile(*triangle, tx, ty)) entries.push_back({tile_number(tx, ty), number});
+            if (!misses_tile(*triangle, corners[a], corners[b], corners[c], tx, ty))
+                entries.push_back({tile_number(tx, ty), number});
         });
         chunk_.triangles.push_back(*triangle);
     }
@@ -156,18 +187,6 @@ class ChunkMaker {
     }
     std::uint32_t tile_number(int tx, int ty) const {
         return static_cast<std::uint32_t>(ty * grid_.across + tx);
-    }
-
-    // By the tile's corner that is farthest inside of each edge.
-    static bool misses_tile(const RasterTriangle& t, int tx, int ty) {
-        if (t.x1 - t.x0 <= raster_tile && t.y1 - t.y0 <= raster_tile) return false;
-        constexpr std::int64_t side = std::int64_t{raster_tile} * raster_subpixels;
-        for (std::size_t e = 0; e < 3; ++e) {
-            const std::int64_t x = tx * side + (t.a[e] > 0 ? side : 0),
-                               y = ty * side + (t.b[e] > 0 ? side : 0);
-            if (t.a[e] * x + t.b[e] * y + t.c[e] < 0) return true;
-        }
-        return false;
     }
 
     void add_cast(const Bounds3& box, std::uint32_t primitive) {
@@ -183,22 +202,26 @@ class ChunkMaker {
     // The pixels around the projected box, all where it is cut by the camera's plane; false: outside.
     bool bound(const Bounds3& box, RasterCast& cast) const {
         int all = 0xff, any = 0;
-        Vec2d lo(guard_high, guard_high), hi(guard_low, guard_low);
+        Vec2d lo(raster_guard_high, raster_guard_high), hi(raster_guard_low, raster_guard_low);
         double q_max = -static_cast<double>(infinity);
-        for (int i = 0; i < 8; ++i) {
-            const Vertex v = vertex(box.corner(i));
-            all &= v.sides & ~beyond_guard;
-            any |= v.sides;
-            if (v.sides & behind) continue;
-            lo = {std::min(lo.x, v.film.x), std::min(lo.y, v.film.y)};
-            hi = {std::max(hi.x, v.film.x), std::max(hi.y, v.film.y)};
-            q_max = std::max(q_max, v.film.q);
+        std::array<Vec3, 8> points;
+        for (int i = 0; i < 8; ++i) points[static_cast<std::size_t>(i)] = box.corner(i);
+        std::array<RasterCorner, 8> corners;
+        std::array<std::uint8_t, 8> sides;
+        project(points, corners.data(), sides.data());
+        for (std::size_t i = 0; i < 8; ++i) {
+            all &= sides[i] & ~raster_beyond_guard;
+            any |= sides[i];
+            if (sides[i] & raster_behind) continue;
+            lo = {std::min(lo.x, corners[i].x), std::min(lo.y, corners[i].y)};
+            hi = {std::max(hi.x, corners[i].x), std::max(hi.y, corners[i].y)};
+            q_max = std::max(q_max, corners[i].q);
         }
         const bool is_endless = !is_finite(box.lo) || !is_finite(box.hi);
         if (all && !is_endless) return false;
         const Rect2i& part = view_.part;
         const Vec2d from(part.lo), to(part.hi);
-        if (is_endless || (any & behind)) {
+        if (is_endless || (any & raster_behind)) {
             lo = from;
             hi = to;
         } else {
@@ -216,30 +239,17 @@ class ChunkMaker {
 
     const std::vector<Draw>& draws_;
     const RasterView& view_;
+    const RasterKernel& kernel_;
     RasterChunk& chunk_;
     TileGrid grid_;
     RasterChunk::Run run_{};
-    Matrix4 film_from_object_;
+    RasterProjection projection_{};
+    std::vector<std::uint8_t> sides_; ///< of the run's points
     bool is_solid_ = true;
     std::vector<TileBins::Entry> solid_entries_, cutout_entries_, cast_entries_;
 };
 
 } // namespace
-
-void TileBins::sort(const std::vector<Entry>& entries, std::vector<std::uint32_t>& counters) {
-    for (const Entry& e : entries)
-        if (counters[e.tile]++ == 0) runs_.push_back({e.tile, 0, 0});
-    std::uint32_t place = 0;
-    for (Run& run : runs_) {
-        run.begin = place;
-        place += counters[run.tile];
-        run.end = place;
-        counters[run.tile] = run.begin;
-    }
-    things_.resize(entries.size());
-    for (const Entry& e : entries) things_[counters[e.tile]++] = e.thing;
-    for (const Run& run : runs_) counters[run.tile] = 0;
-}
 
 TileIndex::TileIndex(const std::vector<RasterChunk>& chunks, TileBins RasterChunk::*bins, std::size_t tiles)
     : starts_(tiles + 1) {
@@ -250,10 +260,11 @@ TileIndex::TileIndex(const std::vector<RasterChunk>& chunks, TileBins RasterChun
     std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
     for (std::uint32_t c = 0; c < chunks.size(); ++c)
         for (const TileBins::Run& run : (chunks[c].*bins).runs())
-            entries_[next[run.tile]++] = {c, run.begin, run.end};
+            entries_[next[run.tile]++] = {c, run.begin, run.end, run.q_max};
 }
 
-std::vector<RasterChunk> make_chunks(const std::vector<Draw>& draws, const RasterView& view) {
+std::vector<RasterChunk> make_chunks(const std::vector<Draw>& draws, const RasterView& view,
+                                     const RasterKernel& kernel) {
     std::vector<RasterChunk> chunks;
     std::uint32_t room = 0; // in the last chunk
     for (std::uint32_t d = 0; d < draws.size(); ++d) {
@@ -270,7 +281,7 @@ std::vector<RasterChunk> make_chunks(const std::vector<Draw>& draws, const Raste
             room -= taken;
         }
     }
-    parallel_for(chunks.size(), 1, [&](std::size_t i) { ChunkMaker(draws, view, chunks[i]).make(); });
+    parallel_for(chunks.size(), 1, [&](std::size_t i) { ChunkMaker(draws, view, kernel, chunks[i]).make(); });
     return chunks;
 }
 

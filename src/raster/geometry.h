@@ -26,10 +26,13 @@ class TileBins {
     /// The things of one tile: begin ... end - 1 of things().
     struct Run {
         std::uint32_t tile, begin, end;
+        float q_max; ///< none is nearer
     };
     /// Keeps the order of the entries in each tile. counters: as many zeros as there are tiles; they are
-    /// zeros again afterwards.
-    void sort(const std::vector<Entry>& entries, std::vector<std::uint32_t>& counters);
+    /// zeros again afterwards. nearest(thing): nearer than that no part of it is.
+    template <class Nearest>
+    void sort(const std::vector<Entry>& entries, std::vector<std::uint32_t>& counters,
+              const Nearest& nearest);
     /// One for each tile that has things.
     const std::vector<Run>& runs() const { return runs_; }
     const std::vector<std::uint32_t>& things() const { return things_; }
@@ -46,6 +49,8 @@ struct RasterChunk {
     };
     std::vector<Run> runs;
     std::vector<RasterTriangle> triangles;
+    std::vector<RasterCorner> corners; ///< of the triangles
+    std::vector<RasterPlane> planes;   ///< of triangles that were clipped
     std::vector<RasterCast> casts;
     TileBins solid_bins, cutout_bins, cast_bins;
 };
@@ -64,6 +69,7 @@ class TileIndex {
   public:
     struct Entry {
         std::uint32_t chunk, begin, end; ///< of the things of the chunk's bins
+        float q_max;                     ///< none of these is nearer
     };
     TileIndex(const std::vector<RasterChunk>& chunks, TileBins RasterChunk::*bins, std::size_t tiles);
     std::span<const Entry> of(std::size_t tile) const {
@@ -82,7 +88,8 @@ struct RasterView {
     bool is_perspective = true;
     double near_depth = 0;
 };
-std::vector<RasterChunk> make_chunks(const std::vector<Draw>& draws, const RasterView& view);
+std::vector<RasterChunk> make_chunks(const std::vector<Draw>& draws, const RasterView& view,
+                                     const RasterKernel& kernel);
 
 /// Everything that tiles are drawn from.
 struct SortedGeometry {
@@ -90,8 +97,8 @@ struct SortedGeometry {
     std::vector<RasterChunk> chunks;
     TileIndex solid, cutouts, casts;
 
-    SortedGeometry(std::vector<Draw> draws_, const RasterView& view)
-        : draws(std::move(draws_)), chunks(make_chunks(draws, view)),
+    SortedGeometry(std::vector<Draw> draws_, const RasterView& view, const RasterKernel& kernel)
+        : draws(std::move(draws_)), chunks(make_chunks(draws, view, kernel)),
           solid(chunks, &RasterChunk::solid_bins, TileGrid(view.part.hi).count()),
           cutouts(chunks, &RasterChunk::cutout_bins, TileGrid(view.part.hi).count()),
           casts(chunks, &RasterChunk::cast_bins, TileGrid(view.part.hi).count()) {}

@@ -1,11 +1,12 @@
-/// What the coverage kernels share with the rest: plain data and function pointers only, since each kernel is
-/// one text compiled for several instruction sets (see accel/wide/kernel.h for why its files include nothing
-/// else).
+/// What the rasteriser's kernels share with the rest: plain data and function pointers only, since each
+/// kernel is one text compiled for several instruction sets (see accel/wide/kernel.h for why its files
+/// include nothing else).
 ///
 /// Coordinates are those of a viewport: pixels from its top left corner, y downwards. Nearness is a number
 /// that grows towards the eye and is linear over the film, for every triangle.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace alhazen {
@@ -21,15 +22,29 @@ constexpr std::int32_t raster_max_samples = 16; ///< a pixel
 /// In place of a fragment's number.
 constexpr std::uint32_t raster_nothing = 0xffffffffu;
 
-/// A triangle on the film. Its three edge functions a x + b y + c, x and y in subpixels, are not negative at
-/// the samples that are inside; c counts the top-left rule in.
+/// Corners may lie this far outside of the viewport (pixels): raster_guard_low <= x, y <= raster_guard_high.
+/// What reaches farther must be clipped.
+constexpr double raster_guard_low = -6144, raster_guard_high = 10240;
+
+/// A corner of triangles: where it is, how near, and its place rounded to subpixels.
+struct RasterCorner {
+    double x, y, q;
+    std::int32_t fixed_x, fixed_y;
+};
+
+/// How nearness grows over the film.
+struct RasterPlane {
+    double q0, qx, qy; ///< at the viewport's corner, and over a pixel
+};
+
+/// A triangle on the film, as little of it as is needed to see that it is hidden.
 struct RasterTriangle {
-    std::int32_t a[3], b[3];
-    std::uint32_t draw;      ///< which shape it is of
-    std::uint32_t primitive; ///< and which primitive of that
-    std::int64_t c[3];
-    double q0, qx, qy;           ///< nearness at the viewport's corner, and its growth over a pixel
-    float q_min, q_max;          ///< nearness stays within
+    static constexpr std::uint16_t no_plane = 0xffff;
+    std::uint16_t corner[3];     ///< in its batch's list
+    std::uint16_t plane;         ///< in its batch's list, or no_plane for the one through its corners
+    std::uint32_t draw;          ///< which shape it is of
+    std::uint32_t primitive;     ///< and which primitive of that
+    float q_max;                 ///< it is nowhere nearer
     std::int16_t x0, y0, x1, y1; ///< no pixels outside x0 <= x < x1, y0 <= y < y1 are touched
 };
 
@@ -40,26 +55,51 @@ struct RasterTarget {
     std::int32_t sample_x[raster_max_samples], sample_y[raster_max_samples]; ///< in the pixel, subpixels
     float* nearness;
     std::uint32_t* fragment;
-    /// What is not nearer than this changes nothing in the block: the hierarchical part of the depth buffer.
+    /// What is farther than this changes nothing in the block: the hierarchical part of the depth buffer.
     float block_nearness[raster_blocks * raster_blocks];
     std::uint32_t block_changes[raster_blocks * raster_blocks]; ///< since block_nearness was made
 };
 
-/// Triangles of which list[i] are to be drawn, as fragments with numbers first_fragment + list[i].
+/// Triangles of which list[i] are to be drawn, as fragments with numbers first_fragment + list[i]. What is
+/// nearest shows; of what is equally near, the lowest number: so the order of batches does not matter.
 struct RasterBatch {
     const RasterTriangle* triangles;
+    const RasterCorner* corners;
+    const RasterPlane* planes;
     const std::uint32_t* list;
     std::uint32_t count;
     std::uint32_t first_fragment;
+    float q_max; ///< none is nearer
     void* owner;
     /// Whether the surface is there at a sample of a pixel, in viewport coordinates; nullptr: everywhere.
     bool (*accept)(void* owner, std::uint32_t fragment, std::int32_t x, std::int32_t y, std::uint32_t sample);
+};
+
+/// Sides of the wanted part of the viewport (and of what can be drawn at all) that a point is beyond.
+enum RasterSide : std::uint8_t {
+    raster_left = 1,
+    raster_right = 2,
+    raster_above = 4,
+    raster_below = 8,
+    raster_behind = 16,       ///< nearer than near_depth, or not a number; the corner is then unspecified
+    raster_beyond_guard = 32, ///< the corner is then at the guard band's border
+};
+
+/// From space to the viewport.
+struct RasterProjection {
+    double rows[4][4]; ///< x w, y w, depth and w
+    double left, right, above, below;
+    double near_depth; ///< nothing nearer is seen
+    bool is_perspective;
 };
 
 struct RasterKernel {
     const char* name;
     bool (*is_supported)();
     void (*draw)(RasterTarget&, const RasterBatch&);
+    /// Takes count points (x, y, z each) onto the film; sides: of RasterSide.
+    void (*project)(const RasterProjection&, const float* points, std::size_t count, RasterCorner* corners,
+                    std::uint8_t* sides);
 };
 
 /// One a file; nullptr where the compiler knows no such instructions.

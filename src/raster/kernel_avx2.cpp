@@ -1,4 +1,4 @@
-/// The coverage kernel for x86-64 with AVX2.
+/// The rasteriser's kernel for x86-64 with AVX2.
 #include <cstddef>
 
 #include "raster/kernel.h"
@@ -6,10 +6,12 @@
 #if defined(__AVX2__)
 
 #include "raster/kernel_text.h"
+#include "raster/project_text.h"
 
 const alhazen::RasterKernel* alhazen::raster_kernel_avx2() {
-    static constexpr RasterKernel kernel{
-        "avx2", [] { return static_cast<bool>(__builtin_cpu_supports("avx2")); }, &draw_batch};
+    static constexpr RasterKernel kernel{"avx2",
+                                         [] { return static_cast<bool>(__builtin_cpu_supports("avx2")); },
+                                         &draw_batch, &project_points};
     return &kernel;
 }
 

@@ -1,11 +1,12 @@
-/// The coverage kernel for any processor.
+/// The rasteriser's kernel for any processor.
 #include <cstddef>
 
 #include "raster/kernel.h"
 
 #include "raster/kernel_text.h"
+#include "raster/project_text.h"
 
 const alhazen::RasterKernel* alhazen::raster_kernel_plain() {
-    static constexpr RasterKernel kernel{"plain", [] { return true; }, &draw_batch};
+    static constexpr RasterKernel kernel{"plain", [] { return true; }, &draw_batch, &project_points};
     return &kernel;
 }

@@ -7,13 +7,13 @@
 /// values become exact 32-bit ones, eight to a register.
 #pragma once
 
+#include "raster/setup_text.h"
+
 namespace {
 
 using alhazen::RasterBatch;
 using alhazen::RasterTarget;
 using alhazen::RasterTriangle;
-
-#define ALHAZEN_INLINE __attribute__((always_inline)) inline
 
 using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
@@ -36,22 +36,42 @@ ALHAZEN_INLINE void store(T* to, const V& v) {
     __builtin_memcpy(to, &v, sizeof v);
 }
 
-/// The edge's whole part at the sample of the block's first pixel.
-ALHAZEN_INLINE std::int32_t edge_at(const RasterTriangle& t, int e, std::int64_t x, std::int64_t y) {
-    const std::int64_t value = (t.a[e] * x + t.b[e] * y + t.c[e]) >> subpixel_bits;
-    return static_cast<std::int32_t>(value < -far_away ? -far_away : value > far_away ? far_away : value);
+/// A triangle ready to be drawn.
+struct ReadyTriangle {
+    Edges edges;
+    alhazen::RasterPlane plane;
+    float q_min, q_max; ///< nearness stays within
+};
+
+/// The plane through three corners; level when they lie on one line.
+ALHAZEN_INLINE alhazen::RasterPlane plane_through(const alhazen::RasterCorner& a,
+                                                  const alhazen::RasterCorner& b,
+                                                  const alhazen::RasterCorner& c) {
+    const double x1 = b.x - a.x, y1 = b.y - a.y, x2 = c.x - a.x, y2 = c.y - a.y;
+    const double area = x1 * y2 - x2 * y1;
+    const double q1 = b.q - a.q, q2 = c.q - a.q;
+    if (!(area > 0 || area < 0)) return {a.q, 0, 0};
+    const double scale = 1 / area;
+    const double qx = (q1 * y2 - q2 * y1) * scale, qy = (q2 * x1 - q1 * x2) * scale;
+    return {a.q - qx * a.x - qy * a.y, qx, qy};
 }
 
-/// Whether all samples of the block's pixels are outside of one edge, by the corner farthest inside. The
-/// corner is that of the pixels' area, in which all samples are.
-ALHAZEN_INLINE bool misses(const RasterTriangle& t, std::int32_t bx, std::int32_t by) {
-    bool miss = false;
-    for (int e = 0; e < 3; ++e) {
-        const std::int64_t x = std::int64_t{bx + (t.a[e] > 0 ? block : 0)} * subpixels;
-        const std::int64_t y = std::int64_t{by + (t.b[e] > 0 ? block : 0)} * subpixels;
-        miss |= t.a[e] * x + t.b[e] * y + t.c[e] < 0;
-    }
-    return miss;
+/// False for triangles without area.
+ALHAZEN_INLINE bool set_up(const RasterBatch& batch, const RasterTriangle& t, ReadyTriangle& ready) {
+    const alhazen::RasterCorner &a = batch.corners[t.corner[0]], &b = batch.corners[t.corner[1]],
+                                &c = batch.corners[t.corner[2]];
+    if (!find_edges(a, b, c, ready.edges)) return false;
+    ready.plane = t.plane == RasterTriangle::no_plane ? plane_through(a, b, c) : batch.planes[t.plane];
+    const double least = a.q < b.q ? a.q : b.q;
+    ready.q_min = static_cast<float>(least < c.q ? least : c.q);
+    ready.q_max = t.q_max;
+    return true;
+}
+
+/// The edge's whole part at the sample of the block's first pixel.
+ALHAZEN_INLINE std::int32_t edge_at(const Edges& edges, int e, std::int64_t x, std::int64_t y) {
+    const std::int64_t value = (edges.a[e] * x + edges.b[e] * y + edges.c[e]) >> subpixel_bits;
+    return static_cast<std::int32_t>(value < -far_away ? -far_away : value > far_away ? far_away : value);
 }
 
 /// Whether it is no larger than a block, so that asking which blocks it misses does not pay.
@@ -74,9 +94,9 @@ ALHAZEN_INLINE void find_far_side(RasterTarget& target, std::int32_t number) {
 }
 
 /// The triangle's largest nearness over the block.
-ALHAZEN_INLINE float nearest_in_block(const RasterTriangle& t, std::int32_t bx, std::int32_t by) {
-    const double x = bx + (t.qx > 0 ? block : 0), y = by + (t.qy > 0 ? block : 0);
-    const auto corner = static_cast<float>(t.q0 + t.qx * x + t.qy * y);
+ALHAZEN_INLINE float nearest_in_block(const ReadyTriangle& t, std::int32_t bx, std::int32_t by) {
+    const double x = bx + (t.plane.qx > 0 ? block : 0), y = by + (t.plane.qy > 0 ? block : 0);
+    const auto corner = static_cast<float>(t.plane.q0 + t.plane.qx * x + t.plane.qy * y);
     // A little more, since this is rounded otherwise than the samples' nearness.
     const float most = corner + (corner < 0 ? -corner : corner) * 1e-6f;
     return most < t.q_max ? most : t.q_max;
@@ -84,38 +104,42 @@ ALHAZEN_INLINE float nearest_in_block(const RasterTriangle& t, std::int32_t bx, 
 
 /// Rows first ... end - 1 of one sample of the block; whether anything was drawn. filter: see RasterBatch.
 template <class Filter>
-ALHAZEN_INLINE bool draw_sample(const RasterTriangle& t, std::int32_t bx, std::int32_t by, std::int32_t first,
+ALHAZEN_INLINE bool draw_sample(const ReadyTriangle& t, std::int32_t bx, std::int32_t by, std::int32_t first,
                                 std::int32_t end, std::int32_t sample_x, std::int32_t sample_y,
                                 float* nearness, std::uint32_t* fragment, std::uint32_t number,
                                 const Filter& filter) {
     const Ints lane = {0, 1, 2, 3, 4, 5, 6, 7};
     const std::int64_t x = std::int64_t{bx} * subpixels + sample_x;
     const std::int64_t y = std::int64_t{by} * subpixels + sample_y;
-    Ints e0 = lane * t.a[0] + edge_at(t, 0, x, y) + first * t.b[0];
-    Ints e1 = lane * t.a[1] + edge_at(t, 1, x, y) + first * t.b[1];
-    Ints e2 = lane * t.a[2] + edge_at(t, 2, x, y) + first * t.b[2];
+    const Edges& edges = t.edges;
+    Ints e0 = lane * edges.a[0] + edge_at(edges, 0, x, y) + first * edges.b[0];
+    Ints e1 = lane * edges.a[1] + edge_at(edges, 1, x, y) + first * edges.b[1];
+    Ints e2 = lane * edges.a[2] + edge_at(edges, 2, x, y) + first * edges.b[2];
     constexpr double pixel = 1.0 / subpixels;
     const Floats along = {0, 1, 2, 3, 4, 5, 6, 7};
-    const Floats start =
-        along * static_cast<float>(t.qx) +
-        static_cast<float>(t.q0 + t.qx * (bx + sample_x * pixel) + t.qy * (by + sample_y * pixel));
-    const auto down = static_cast<float>(t.qy);
+    const alhazen::RasterPlane& plane = t.plane;
+    const Floats start = along * static_cast<float>(plane.qx) +
+                         static_cast<float>(plane.q0 + plane.qx * (bx + sample_x * pixel) +
+                                            plane.qy * (by + sample_y * pixel));
+    const auto down = static_cast<float>(plane.qy);
+    const Floats q_min = Floats{} + t.q_min, q_max = Floats{} + t.q_max;
+    const Ints mine = Ints{} + static_cast<std::int32_t>(number);
     Ints drawn{};
     for (std::int32_t row = first; row < end; ++row) {
         float* place = nearness + row * block;
         const Floats old = load<Floats>(place);
+        const Ints before = load<Ints>(fragment + row * block);
         Floats q = start + static_cast<float>(row) * down;
-        q = q < t.q_min ? Floats{} + t.q_min : q;
-        q = q > t.q_max ? Floats{} + t.q_max : q;
-        Ints wins = ((e0 | e1 | e2) >= 0) & (q > old);
+        q = q < q_min ? q_min : q;
+        q = q > q_max ? q_max : q;
+        Ints wins = ((e0 | e1 | e2) >= 0) & ((q > old) | ((q == old) & (mine < before)));
         filter(wins, row);
         store(place, wins ? q : old);
-        const Ints before = load<Ints>(fragment + row * block);
-        store(fragment + row * block, wins ? Ints{} + static_cast<std::int32_t>(number) : before);
+        store(fragment + row * block, wins ? mine : before);
         drawn |= wins;
-        e0 += t.b[0];
-        e1 += t.b[1];
-        e2 += t.b[2];
+        e0 += edges.b[0];
+        e1 += edges.b[1];
+        e2 += edges.b[2];
     }
     using Halves = std::int64_t __attribute__((vector_size(32)));
     const Halves halves = load<Halves>(&drawn);
@@ -123,10 +147,10 @@ ALHAZEN_INLINE bool draw_sample(const RasterTriangle& t, std::int32_t bx, std::i
 }
 
 ALHAZEN_INLINE void draw_in_block(RasterTarget& target, const RasterBatch& batch, const RasterTriangle& t,
-                                  std::uint32_t number, std::int32_t bx, std::int32_t by) {
-    const std::int32_t at = ((by - target.y) / block) * alhazen::raster_blocks + (bx - target.x) / block;
-    if (target.block_changes[at] >= many_changes) find_far_side(target, at);
-    if (!(nearest_in_block(t, bx, by) > target.block_nearness[at]) || (!fits_block(t) && misses(t, bx, by)))
+                                  const ReadyTriangle& ready, std::uint32_t number, std::int32_t bx,
+                                  std::int32_t by, std::int32_t at) {
+    if (!fits_block(t) && (!(nearest_in_block(ready, bx, by) >= target.block_nearness[at]) ||
+                           misses(ready.edges, bx, by, block)))
         return;
     const std::int32_t first = t.y0 > by ? t.y0 - by : 0;
     const std::int32_t end = t.y1 < by + block ? t.y1 - by : block;
@@ -139,30 +163,48 @@ ALHAZEN_INLINE void draw_in_block(RasterTarget& target, const RasterBatch& batch
                 if (wins[i] && !batch.accept(batch.owner, number, bx + i, by + row, s)) wins[i] = 0;
         };
         if (batch.accept)
-            drawn |= draw_sample(t, bx, by, first, end, target.sample_x[s], target.sample_y[s],
+            drawn |= draw_sample(ready, bx, by, first, end, target.sample_x[s], target.sample_y[s],
                                  target.nearness + place, target.fragment + place, number, tested);
         else
-            drawn |= draw_sample(t, bx, by, first, end, target.sample_x[s], target.sample_y[s],
+            drawn |= draw_sample(ready, bx, by, first, end, target.sample_x[s], target.sample_y[s],
                                  target.nearness + place, target.fragment + place, number, everywhere);
     }
     target.block_changes[at] += drawn;
 }
 
-void draw_batch(RasterTarget& target, const RasterBatch& batch) {
-    for (std::uint32_t i = 0; i < batch.count; ++i) {
-        const RasterTriangle& t = batch.triangles[batch.list[i]];
-        const std::int32_t x0 = t.x0 > target.x ? (t.x0 - target.x) / block * block + target.x : target.x;
-        const std::int32_t y0 = t.y0 > target.y ? (t.y0 - target.y) / block * block + target.y : target.y;
-        const std::int32_t x1 =
-            t.x1 < target.x + alhazen::raster_tile ? t.x1 : target.x + alhazen::raster_tile;
-        const std::int32_t y1 =
-            t.y1 < target.y + alhazen::raster_tile ? t.y1 : target.y + alhazen::raster_tile;
-        for (std::int32_t by = y0; by < y1; by += block)
-            for (std::int32_t bx = x0; bx < x1; bx += block)
-                draw_in_block(target, batch, t, batch.first_fragment + batch.list[i], bx, by);
-    }
+ALHAZEN_INLINE void draw_in_tile(RasterTarget& target, const RasterBatch& batch, std::uint32_t local) {
+    const RasterTriangle& t = batch.triangles[local];
+    constexpr std::int32_t tile = alhazen::raster_tile;
+    const std::int32_t x0 = t.x0 > target.x ? (t.x0 - target.x) / block : 0;
+    const std::int32_t y0 = t.y0 > target.y ? (t.y0 - target.y) / block : 0;
+    const std::int32_t x1 = t.x1 < target.x + tile ? t.x1 - target.x : tile;
+    const std::int32_t y1 = t.y1 < target.y + tile ? t.y1 - target.y : tile;
+    ReadyTriangle ready;
+    bool is_ready = false;
+    for (std::int32_t y = y0; y * block < y1; ++y)
+        for (std::int32_t x = x0; x * block < x1; ++x) {
+            const std::int32_t at = y * alhazen::raster_blocks + x;
+            if (!(t.q_max >= target.block_nearness[at])) continue;
+            if (target.block_changes[at] >= many_changes) {
+                find_far_side(target, at);
+                if (!(t.q_max >= target.block_nearness[at])) continue;
+            }
+            // Most triangles are hidden, and need no edges.
+            if (!is_ready && !set_up(batch, t, ready)) return;
+            is_ready = true;
+            draw_in_block(target, batch, t, ready, batch.first_fragment + local, target.x + x * block,
+                          target.y + y * block, at);
+        }
 }
 
-#undef ALHAZEN_INLINE
+void draw_batch(RasterTarget& target, const RasterBatch& batch) {
+    bool is_hidden = true;
+    for (std::int32_t at = 0; at < alhazen::raster_blocks * alhazen::raster_blocks; ++at) {
+        if (target.block_changes[at] > 0) find_far_side(target, at);
+        is_hidden &= !(batch.q_max >= target.block_nearness[at]);
+    }
+    if (is_hidden) return;
+    for (std::uint32_t i = 0; i < batch.count; ++i) draw_in_tile(target, batch, batch.list[i]);
+}
 
 } // namespace

@@ -54,8 +54,8 @@ void Rasterizer::run_viewport(Vec2i origin, const Rect2i& part, const Show& show
     view.single_sample = samples_ == 1;
     view.is_perspective = projection_.is_perspective;
     view.near_depth = near_fraction * static_cast<double>(length(scene_.bounds().diagonal()));
-    const SortedGeometry geometry(std::move(draws), view);
     const RasterKernel& kernel = kernel_ ? *kernel_ : *supported_raster_kernels().front();
+    const SortedGeometry geometry(std::move(draws), view, kernel);
     tbb::enumerable_thread_specific<TileDrawer> drawers(
         [&] { return TileDrawer(camera_, projection_, geometry, kernel, samples_); });
     const int x0 = part.lo.x / raster_tile, y0 = part.lo.y / raster_tile;

@@ -6,7 +6,6 @@
 /// sample twice.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "base/bounds.h"
@@ -14,36 +13,20 @@
 
 namespace alhazen {
 
-/// Coordinates in the viewport may lie this far outside (pixels): guard_low <= x, y <= guard_high. What
-/// reaches farther must be clipped.
-inline constexpr double guard_low = -6144, guard_high = 10240;
 /// Pixels on a side of a viewport.
 inline constexpr int viewport_size = 4096;
 
-/// A corner: where it is in the viewport (pixels), and how near.
-struct FilmCorner {
-    double x, y, q;
-};
-
-/// How nearness grows over the film.
-struct NearnessPlane {
-    double q0, qx, qy; ///< at the viewport's corner, and over a pixel
-};
-
-/// A corner in subpixels.
-struct FixedPoint {
-    std::int32_t x, y;
-};
-FixedPoint to_fixed(double x, double y);
-
-/// The plane through three corners; level when they lie on one line.
-NearnessPlane plane_through(const std::array<FilmCorner, 3>& corners);
+/// A corner within the guard band.
+RasterCorner make_corner(double x, double y, double q);
 
 /// nullopt for triangles that cover no place where a sample may be, in a part of the viewport (pixels).
-/// plane: nullptr for the one through the corners. single_sample: whether there is one sample a pixel, in the
-/// middle, or several, which may be anywhere. draw and primitive are left at zero.
-std::optional<RasterTriangle> set_up_triangle(const std::array<FilmCorner, 3>& corners,
-                                              const NearnessPlane* plane, const Rect2i& part,
-                                              bool single_sample);
+/// single_sample: whether there is one sample a pixel, in the middle, or several, which may be anywhere.
+/// Which corners, which plane and of which draw and primitive is left to the caller.
+std::optional<RasterTriangle> set_up_triangle(const RasterCorner& a, const RasterCorner& b,
+                                              const RasterCorner& c, const Rect2i& part, bool single_sample);
+
+/// Whether the triangle, which may be large, covers nothing of a tile: tx and ty count tiles.
+bool misses_tile(const RasterTriangle& triangle, const RasterCorner& a, const RasterCorner& b,
+                 const RasterCorner& c, int tx, int ty);
 
 } // namespace alhazen

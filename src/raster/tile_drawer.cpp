@@ -52,10 +52,16 @@ void TileDrawer::clear(Vec2i origin, const Rect2i& part, int tile_x, int tile_y)
 
 void TileDrawer::draw_triangles(std::size_t tile) {
     auto draw = [&](const TileIndex& index, TileBins RasterChunk::*bins, auto test) {
-        for (const TileIndex::Entry& e : index.of(tile)) {
+        // Those in front first: they hide what comes after before it has cost much.
+        runs_.assign(index.of(tile).begin(), index.of(tile).end());
+        std::sort(runs_.begin(), runs_.end(), [](const TileIndex::Entry& a, const TileIndex::Entry& b) {
+            return a.q_max != b.q_max ? a.q_max > b.q_max : a.chunk < b.chunk;
+        });
+        for (const TileIndex::Entry& e : runs_) {
             const RasterChunk& chunk = geometry_.chunks[e.chunk];
-            kernel_.draw(tile_.target_, {chunk.triangles.data(), (chunk.*bins).things().data() + e.begin,
-                                         e.end - e.begin, FragmentNumber::of(e.chunk, 0, false), this, test});
+            kernel_.draw(tile_.target_, {chunk.triangles.data(), chunk.corners.data(), chunk.planes.data(),
+                                         (chunk.*bins).things().data() + e.begin, e.end - e.begin,
+                                         FragmentNumber::of(e.chunk, 0, false), e.q_max, this, test});
         }
     };
     auto ask = [](void* owner, std::uint32_t number, std::int32_t x, std::int32_t y, std::uint32_t sample) {

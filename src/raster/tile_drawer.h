@@ -44,6 +44,7 @@ class TileDrawer {
     const RasterKernel& kernel_;
     std::vector<float> nearness_;
     std::vector<std::uint32_t> fragment_;
+    std::vector<TileIndex::Entry> runs_;
     std::vector<NumberedCast> casts_;
     Vec2i origin_; ///< of the viewport, on the film
     DrawnTile tile_;

@@ -25,19 +25,19 @@ TEST(Clip, KeepsWhatIsInsideAndNothingElse) {
         for (std::size_t i = 0; i < polygon.count; ++i) {
             const ClipCorner& c = polygon.corners[i];
             ASSERT_GE(c.depth, near_depth * (1 - 1e-9));
-            ASSERT_GE(c.x / c.w, guard_low);
-            ASSERT_LE(c.x / c.w, guard_high);
-            ASSERT_GE(c.y / c.w, guard_low);
-            ASSERT_LE(c.y / c.w, guard_high);
+            ASSERT_GE(c.x / c.w, raster_guard_low);
+            ASSERT_LE(c.x / c.w, raster_guard_high);
+            ASSERT_GE(c.y / c.w, raster_guard_low);
+            ASSERT_LE(c.y / c.w, raster_guard_high);
         }
         // A random point of the triangle that is inside is on the polygon's side of all its edges, in (x, y,
         // w).
         double a = static_cast<double>(rng.uniform()), b = static_cast<double>(rng.uniform()) * (1 - a);
         auto mix = [&](double p, double q, double r) { return p * a + q * b + r * (1 - a - b); };
         const Vec3d p{mix(t[0].x, t[1].x, t[2].x), mix(t[0].y, t[1].y, t[2].y), mix(t[0].w, t[1].w, t[2].w)};
-        const bool inside = p.z >= near_depth * 1.01 && p.x > (guard_low + 2) * p.z &&
-                            p.x < (guard_high - 2) * p.z && p.y > (guard_low + 2) * p.z &&
-                            p.y < (guard_high - 2) * p.z;
+        const bool inside = p.z >= near_depth * 1.01 && p.x > (raster_guard_low + 2) * p.z &&
+                            p.x < (raster_guard_high - 2) * p.z && p.y > (raster_guard_low + 2) * p.z &&
+                            p.y < (raster_guard_high - 2) * p.z;
         if (!inside) continue;
         ASSERT_GE(polygon.count, 3u);
         int positive = 0, negative = 0;

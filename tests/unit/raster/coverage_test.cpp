@@ -34,18 +34,19 @@ class Canvas {
 
     /// Draws one triangle on an empty picture and counts where it comes to lie.
     void draw(const Triangle& t) {
-        std::array<FilmCorner, 3> corners;
-        for (std::size_t i = 0; i < 3; ++i) corners[i] = {t[i].x, t[i].y, 1};
-        auto triangle = set_up_triangle(corners, nullptr, {{0, 0}, size_}, samples_ == 1);
+        std::array<RasterCorner, 3> corners;
+        for (std::size_t i = 0; i < 3; ++i) corners[i] = make_corner(t[i].x, t[i].y, 1);
+        auto triangle = set_up_triangle(corners[0], corners[1], corners[2], {{0, 0}, size_}, samples_ == 1);
         if (!triangle) return;
+        for (std::uint16_t i = 0; i < 3; ++i) triangle->corner[i] = i;
         for (int y = 0; y < size_.y; y += raster_tile)
-            for (int x = 0; x < size_.x; x += raster_tile) draw_tile(*triangle, x, y);
+            for (int x = 0; x < size_.x; x += raster_tile) draw_tile(*triangle, corners.data(), x, y);
     }
 
     std::vector<int> covered;
 
   private:
-    void draw_tile(const RasterTriangle& triangle, int x0, int y0) {
+    void draw_tile(const RasterTriangle& triangle, const RasterCorner* corners, int x0, int y0) {
         const std::size_t count = std::size_t{raster_tile} * raster_tile * static_cast<std::size_t>(samples_);
         std::vector<float> nearness(count, -infinity);
         std::vector<std::uint32_t> fragment(count, raster_nothing);
@@ -62,7 +63,7 @@ class Canvas {
             target.sample_y[s++] = place.y * (raster_subpixels / 16);
         }
         const std::uint32_t list = 0;
-        kernel_.draw(target, {&triangle, &list, 1, 7, nullptr, nullptr});
+        kernel_.draw(target, {&triangle, corners, nullptr, &list, 1, 7, triangle.q_max, nullptr, nullptr});
         for (int y = y0; y < std::min(y0 + raster_tile, size_.y); ++y)
             for (int x = x0; x < std::min(x0 + raster_tile, size_.x); ++x)
                 for (int i = 0; i < samples_; ++i) {
@@ -79,6 +80,10 @@ class Canvas {
     const RasterKernel& kernel_;
 };
 
+struct FixedPoint {
+    std::int32_t x, y;
+};
+
 /// Twice the signed area of p, q and the sample, and its sign after the tie is broken.
 int side(FixedPoint p, FixedPoint q, FixedPoint sample) {
     const Exact dx = q.x - p.x, dy = q.y - p.y;
@@ -91,7 +96,10 @@ int side(FixedPoint p, FixedPoint q, FixedPoint sample) {
 
 bool covers(const Triangle& t, FixedPoint sample) {
     std::array<FixedPoint, 3> p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = to_fixed(t[i].x, t[i].y);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const RasterCorner corner = make_corner(t[i].x, t[i].y, 1);
+        p[i] = {corner.fixed_x, corner.fixed_y};
+    }
     const Exact area =
         Exact{p[1].x - p[0].x} * (p[2].y - p[0].y) - Exact{p[2].x - p[0].x} * (p[1].y - p[0].y);
     if (area == 0) return false;
@@ -113,7 +121,8 @@ Vec2d random_corner(Rng& rng, int kind, Vec2i size) {
     case 2: // on a grid of sixteenths within a few pixels
         return {20 + std::floor(u() * 64) / 16, 30 + std::floor(u() * 64) / 16};
     case 3: // as far as corners may lie
-        return {guard_low + u() * (guard_high - guard_low), guard_low + u() * (guard_high - guard_low)};
+        return {raster_guard_low + u() * (raster_guard_high - raster_guard_low),
+                raster_guard_low + u() * (raster_guard_high - raster_guard_low)};
     default: // slivers
         return {u() * size.x, 24 + u() * 1e-2};
     }
@@ -195,6 +204,38 @@ TEST_P(Coverage, SharedEdgesGiveEachSampleToOneTriangle) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Coverage, ::testing::Values(1, 4, 8, 16));
+
+// Two triangles on each other, of which the second reaches farther: whichever is drawn first.
+TEST(CoverageOrder, OfTheEquallyNearTheLowestNumberShows) {
+    const std::array<RasterCorner, 4> corners{make_corner(0, 0, 1), make_corner(20, 0, 1),
+                                              make_corner(0, 20, 1), make_corner(30, 0, 1)};
+    std::array<RasterTriangle, 2> triangles;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t second = i == 0 ? 1 : 3;
+        triangles[i] = *set_up_triangle(corners[0], corners[second], corners[2], {{0, 0}, {32, 32}}, true);
+        const std::array<std::size_t, 3> numbers{0, second, 2};
+        for (std::size_t c = 0; c < 3; ++c) triangles[i].corner[c] = static_cast<std::uint16_t>(numbers[c]);
+    }
+    for (const RasterKernel* kernel : supported_raster_kernels())
+        for (const std::array<std::uint32_t, 2>& order : {std::array{0u, 1u}, std::array{1u, 0u}}) {
+            std::vector<float> nearness(raster_tile * raster_tile, -infinity);
+            std::vector<std::uint32_t> fragment(raster_tile * raster_tile, raster_nothing);
+            RasterTarget target{};
+            target.samples = 1;
+            target.sample_x[0] = target.sample_y[0] = raster_subpixels / 2;
+            target.nearness = nearness.data();
+            target.fragment = fragment.data();
+            std::fill(std::begin(target.block_nearness), std::end(target.block_nearness), -infinity);
+            for (const std::uint32_t& number : order)
+                kernel->draw(target,
+                             {triangles.data(), corners.data(), nullptr, &number, 1, 0, 1, nullptr, nullptr});
+            // The first row: middles at x + 1/2, the edges' ends at 19.5 and 29.25.
+            for (std::size_t x = 0; x < raster_tile; ++x) {
+                const std::size_t place = x / raster_block * raster_block_pixels + x % raster_block;
+                EXPECT_EQ(fragment[place], x < 19 ? 0 : x < 29 ? 1 : raster_nothing) << kernel->name << x;
+            }
+        }
+}
 
 TEST(SamplePlaces, OneInEachRowAndColumn) {
     for (int n : {4, 8, 16}) {
