@@ -10,8 +10,10 @@ foreach(set plain sse42 avx2 avx512)
     set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/accel/wide/kernel_${set}.cpp PROPERTIES
         SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "-fno-tree-vectorize;-fno-tree-slp-vectorize;${kernel_flags_${set}}")
 endforeach()
-# The rasteriser's, whose text leaves it to the compiler to put eight lanes into registers.
+# The rasteriser's, whose text leaves it to the compiler to put lanes into registers.
 set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/raster/kernel_plain.cpp PROPERTIES
     SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "-Wno-psabi")
-set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/raster/kernel_avx2.cpp PROPERTIES
-    SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${kernel_flags_avx2}")
+foreach(set avx2 avx512)
+    set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/raster/kernel_${set}.cpp PROPERTIES
+        SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${kernel_flags_${set}}")
+endforeach()

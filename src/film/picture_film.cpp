@@ -105,7 +105,10 @@ void PictureFilm::start(ColorMode mode) {
     splats_.clear();
     output_from_sensor_ = sensor_.output_from_sensor(*space_, mode);
     const std::size_t count = pixel_count();
-    if (sums_.size() != count) sums_ = BigArray<Sums>(count);
+    if (sums_.size() != count) {
+        sums_ = BigArray<Sums>(count);
+        weighted_ = BigArray<WeightedSums>(count);
+    }
     parallel_ranges(count, 16384, [this](std::size_t begin, std::size_t end) {
         std::fill(sums_.data() + begin, sums_.data() + end, Sums{});
     });
@@ -131,7 +134,7 @@ Image PictureFilm::picture_of(Measured measured, std::span<const std::string> mo
 Image PictureFilm::image_with(std::span<const std::string> more_channels) const {
     return picture_of(
         [this](std::size_t i) {
-            Vec3d measured = sums_[i].count > 0 ? sums_[i].filtered() : Vec3d();
+            Vec3d measured = sums_[i].count > 0 ? filtered(i) : Vec3d();
             if (!splats_.empty()) measured += splats_.front().sum(i) * splat_scale_;
             return measured;
         },

@@ -65,13 +65,12 @@ class PictureFilm : public Film {
 
     void start(ColorMode mode) override;
     void add(Vec2i pixel, Spectrum L, const Wavelengths& lambda, float weight) override {
-        const Vec3 rgb = measured(L, lambda);
-        Sums& s = sums_[index(pixel)];
-        const double w = static_cast<double>(weight);
-        s.rgb += Vec3d(rgb);
-        s.weighted_rgb += Vec3d(rgb) * w;
-        s.weight += w;
-        s.count += 1;
+        const Vec3d rgb(measured(L, lambda));
+        const std::size_t i = index(pixel);
+        Sums& s = sums_[i];
+        if (weight != 1 || s.is_weighted) add_weighted(i, rgb, static_cast<double>(weight));
+        s.rgb += rgb;
+        ++s.count;
     }
     bool takes_splats() const override { return true; }
     void start_splats(const Filter& filter, std::size_t more_layers) override {
@@ -89,7 +88,7 @@ class PictureFilm : public Film {
     Vec3 measure(Spectrum L, const Wavelengths& lambda) const override {
         return sensor_.to_sensor_rgb(L, lambda);
     }
-    void set(Vec2i pixel, Vec3d measured) override { sums_[index(pixel)] = {measured, measured, 1, 1}; }
+    void set(Vec2i pixel, Vec3d measured) override { sums_[index(pixel)] = {measured, 1, false}; }
     Image image() const override;
     Image splat_image(std::size_t layer) const override;
 
@@ -156,14 +155,32 @@ class PictureFilm : public Film {
     float limit() const { return limit_; }
 
   private:
-    // One cache line.
+    /// Of a pixel's samples.
     struct Sums {
-        Vec3d rgb, weighted_rgb;
-        double weight = 0, count = 0;
-
-        // Mean of the samples plus their covariance with their weights.
-        Vec3d filtered() const { return (rgb * (1 - weight / count) + weighted_rgb) / count; }
+        Vec3d rgb;
+        std::uint32_t count = 0;
+        bool is_weighted = false; ///< not all weights are 1
     };
+    /// The same times the weights, for pixels that have others than 1; of other pixels they are not even
+    /// touched, so that most pictures take half the memory.
+    struct WeightedSums {
+        Vec3d rgb;
+        double weight = 0;
+    };
+    void add_weighted(std::size_t i, Vec3d rgb, double weight) {
+        Sums& s = sums_[i];
+        if (!s.is_weighted) weighted_[i] = {s.rgb, static_cast<double>(s.count)};
+        s.is_weighted = true;
+        weighted_[i].rgb += rgb * weight;
+        weighted_[i].weight += weight;
+    }
+    /// Mean of a pixel's samples plus their covariance with their weights.
+    Vec3d filtered(std::size_t i) const {
+        const Sums& s = sums_[i];
+        const auto count = static_cast<double>(s.count);
+        if (!s.is_weighted) return s.rgb / count;
+        return (s.rgb * (1 - weighted_[i].weight / count) + weighted_[i].rgb) / count;
+    }
 
     Rect2i declared_pixels() const;
     bool check_counts(const Node& node, BuildContext& context) const;
@@ -177,6 +194,7 @@ class PictureFilm : public Film {
     Matrix3 output_from_sensor_;
     float limit_ = infinity;
     BigArray<Sums> sums_;
+    BigArray<WeightedSums> weighted_;
     std::vector<Splats> splats_; ///< one a layer
     double splat_scale_ = 1;
 };

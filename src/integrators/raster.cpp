@@ -36,13 +36,15 @@ class RasterWork final : public PictureWork {
         std::mutex mutex;
         PictureCounts counts;
         Rasterizer(picture_.scene, picture_.camera, picture_.samples).run(pixels, [&](const DrawnTile& tile) {
-            shading_.shade(tile, [&](Vec2i pixel, Spectrum L, int samples) {
-                if (!L.is_finite()) {
-                    std::scoped_lock lock(mutex);
-                    counts.add_bad(pixel, 0);
-                    return;
+            shading_.shade(tile, [&](std::span<const TileShading::Shaded> shaded) {
+                for (const auto& [pixel, samples, L] : shaded) {
+                    if (!L.is_finite()) {
+                        std::scoped_lock lock(mutex);
+                        counts.add_bad(pixel, 0);
+                        continue;
+                    }
+                    for (int i = 0; i < samples; ++i) picture_.film.add(pixel, L, Wavelengths::rgb(), 1);
                 }
-                for (int i = 0; i < samples; ++i) picture_.film.add(pixel, L, Wavelengths::rgb(), 1);
             });
             const Rect2i part = tile.pixels();
             const int count = part.width() * part.height();

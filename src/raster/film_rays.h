@@ -19,6 +19,9 @@ class FilmRays {
         return is_perspective_ ? ahead_ + across_ * film.x + down_ * film.y : ahead_;
     }
 
+    /// How many directions away from the origin a surface is that is so near (see DrawnTile::nearness).
+    float steps(float nearness) const { return is_perspective_ ? 1 / nearness : -nearness; }
+
   private:
     bool is_perspective_;
     Vec3 start_, ahead_, across_, down_;

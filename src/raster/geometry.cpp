@@ -103,26 +103,32 @@ class ChunkMaker {
             is_shared ? std::span(mesh.P).subspan(static_cast<std::size_t>(*lo), range) : std::span(gathered);
         const std::size_t first = chunk_.corners.size();
         chunk_.corners.resize(first + points.size());
-        sides_.resize(points.size());
-        project(points, chunk_.corners.data() + first, sides_.data());
-        for (std::uint32_t i = 0; i < run_.count; ++i) {
-            std::array<std::size_t, 3> at;
-            for (std::size_t c = 0; c < 3; ++c)
-                at[c] = is_shared ? static_cast<std::size_t>(indices[3 * i + c] - *lo) : 3 * i + c;
-            add_triangle(points, first, at, run_.first + i);
+        sides_.resize(first + points.size());
+        project(points, chunk_.corners.data() + first, sides_.data() + first);
+        numbers_.resize(count);
+        const int shift = static_cast<int>(first) - *lo;
+        for (std::size_t i = 0; i < count; ++i)
+            numbers_[i] =
+                static_cast<std::uint16_t>(is_shared ? indices[i] + shift : static_cast<int>(first + i));
+        for (RasterTriangle& t : culled()) {
+            if (t.plane == RasterTriangle::to_clip) {
+                auto corner = [&](std::size_t c) { return clip_corner(points[t.corner[c] - first]); };
+                add_clipped({corner(0), corner(1), corner(2)}, run_.first + t.primitive);
+            } else {
+                t.primitive += run_.first;
+                add(t);
+            }
         }
     }
 
-    // Of points, of which the first is the corner of that number.
-    void add_triangle(std::span<const Vec3> points, std::size_t first, const std::array<std::size_t, 3>& at,
-                      std::uint32_t primitive) {
-        const std::uint8_t a = sides_[at[0]], b = sides_[at[1]], c = sides_[at[2]];
-        if (a & b & c & ~raster_beyond_guard) return;
-        if ((a | b | c) & (raster_behind | raster_beyond_guard))
-            add_clipped({clip_corner(points[at[0]]), clip_corner(points[at[1]]), clip_corner(points[at[2]])},
-                        primitive);
-        else
-            add(first + at[0], first + at[1], first + at[2], RasterTriangle::no_plane, primitive);
+    // Those of the triangles with numbers_ for corners that may be seen.
+    std::vector<RasterTriangle> culled() const {
+        std::vector<RasterTriangle> kept(numbers_.size() / 3 + 1);
+        const Rect2i& part = view_.part;
+        kept.resize(kernel_.cull({part.lo.x, part.lo.y, part.hi.x, part.hi.y, view_.single_sample},
+                                 chunk_.corners.data(), sides_.data(), numbers_.data(), numbers_.size() / 3,
+                                 kept.data()));
+        return kept;
     }
 
     void add_clipped(const std::array<ClipCorner, 3>& triangle, std::uint32_t primitive) {
@@ -143,8 +149,16 @@ class ChunkMaker {
         const auto plane = static_cast<std::uint16_t>(chunk_.planes.size());
         chunk_.corners.insert(chunk_.corners.end(), corners.begin(), corners.begin() + polygon.count);
         chunk_.planes.push_back(exact_plane(triangle));
+        sides_.resize(chunk_.corners.size());
+        numbers_.clear();
         for (std::size_t i = 1; i + 1 < polygon.count; ++i)
-            add(first, first + i, first + i + 1, plane, primitive);
+            for (std::size_t c : {first, first + i, first + i + 1})
+                numbers_.push_back(static_cast<std::uint16_t>(c));
+        for (RasterTriangle& t : culled()) {
+            t.plane = plane;
+            t.primitive = primitive;
+            add(t);
+        }
     }
 
     // Of the whole triangle: a x + b y + c w = nearness w at the corners.
@@ -160,24 +174,18 @@ class ChunkMaker {
         return {sum.z, sum.x, sum.y};
     }
 
-    // Corners are numbers in the chunk.
-    void add(std::size_t a, std::size_t b, std::size_t c, std::uint16_t plane, std::uint32_t primitive) {
-        const std::vector<RasterCorner>& corners = chunk_.corners;
-        auto triangle = set_up_triangle(corners[a], corners[b], corners[c], view_.part, view_.single_sample);
-        if (!triangle) return;
-        triangle->corner[0] = static_cast<std::uint16_t>(a);
-        triangle->corner[1] = static_cast<std::uint16_t>(b);
-        triangle->corner[2] = static_cast<std::uint16_t>(c);
-        triangle->plane = plane;
-        triangle->draw = run_.draw;
-        triangle->primitive = primitive;
+    void add(RasterTriangle& triangle) {
+        triangle.draw = run_.draw;
         const auto number = static_cast<std::uint32_t>(chunk_.triangles.size());
         std::vector<TileBins::Entry>& entries = is_solid_ ? solid_entries_ : cutout_entries_;
-        for_tiles(*triangle, [&](int tx, int ty) {
-            if (!misses_tile(*triangle, corners[a], corners[b], corners[c], tx, ty))
+        auto corner = [&](std::size_t c) -> const RasterCorner& {
+            return chunk_.corners[triangle.corner[c]];
+        };
+        for_tiles(triangle, [&](int tx, int ty) {
+            if (!misses_tile(triangle, corner(0), corner(1), corner(2), tx, ty))
                 entries.push_back({tile_number(tx, ty), number});
         });
-        chunk_.triangles.push_back(*triangle);
+        chunk_.triangles.push_back(triangle);
     }
 
     template <class Thing, class Visit>
@@ -244,7 +252,8 @@ class ChunkMaker {
     TileGrid grid_;
     RasterChunk::Run run_{};
     RasterProjection projection_{};
-    std::vector<std::uint8_t> sides_; ///< of the run's points
+    std::vector<std::uint8_t> sides_;    ///< of the chunk's corners
+    std::vector<std::uint16_t> numbers_; ///< of the corners of triangles, three each
     bool is_solid_ = true;
     std::vector<TileBins::Entry> solid_entries_, cutout_entries_, cast_entries_;
 };

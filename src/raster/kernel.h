@@ -39,9 +39,10 @@ struct RasterPlane {
 
 /// A triangle on the film, as little of it as is needed to see that it is hidden.
 struct RasterTriangle {
-    static constexpr std::uint16_t no_plane = 0xffff;
+    static constexpr std::uint16_t no_plane = 0xffff, to_clip = 0xfffe;
     std::uint16_t corner[3];     ///< in its batch's list
-    std::uint16_t plane;         ///< in its batch's list, or no_plane for the one through its corners
+    std::uint16_t plane;         ///< in its batch's list, or no_plane for the one through its corners;
+                                 ///< to_clip: it must be clipped first
     std::uint32_t draw;          ///< which shape it is of
     std::uint32_t primitive;     ///< and which primitive of that
     float q_max;                 ///< it is nowhere nearer
@@ -57,7 +58,7 @@ struct RasterTarget {
     std::uint32_t* fragment;
     /// What is farther than this changes nothing in the block: the hierarchical part of the depth buffer.
     float block_nearness[raster_blocks * raster_blocks];
-    std::uint32_t block_changes[raster_blocks * raster_blocks]; ///< since block_nearness was made
+    std::uint32_t block_changes[raster_blocks * raster_blocks]; ///< triangles since block_nearness was made
 };
 
 /// Triangles of which list[i] are to be drawn, as fragments with numbers first_fragment + list[i]. What is
@@ -93,6 +94,12 @@ struct RasterProjection {
     bool is_perspective;
 };
 
+/// The part of the viewport that is wanted.
+struct RasterPart {
+    std::int32_t x0, y0, x1, y1; ///< pixels x0 <= x < x1, y0 <= y < y1
+    bool single_sample;          ///< one sample a pixel, in the middle; or several, which may be anywhere
+};
+
 struct RasterKernel {
     const char* name;
     bool (*is_supported)();
@@ -100,10 +107,16 @@ struct RasterKernel {
     /// Takes count points (x, y, z each) onto the film; sides: of RasterSide.
     void (*project)(const RasterProjection&, const float* points, std::size_t count, RasterCorner* corners,
                     std::uint8_t* sides);
+    /// Which of count triangles may cover a sample, in their order; how many these are. numbers: of the
+    /// corners, three for each; sides: of the corners. A kept triangle's primitive is its number among the
+    /// count, its draw is left open; there must be room for all, and one more.
+    std::size_t (*cull)(const RasterPart&, const RasterCorner* corners, const std::uint8_t* sides,
+                        const std::uint16_t* numbers, std::size_t count, RasterTriangle* kept);
 };
 
 /// One a file; nullptr where the compiler knows no such instructions.
 const RasterKernel* raster_kernel_plain();
 const RasterKernel* raster_kernel_avx2();
+const RasterKernel* raster_kernel_avx512();
 
 } // namespace alhazen

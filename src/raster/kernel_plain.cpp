@@ -3,10 +3,12 @@
 
 #include "raster/kernel.h"
 
+#include "raster/cull_text.h"
 #include "raster/kernel_text.h"
 #include "raster/project_text.h"
 
 const alhazen::RasterKernel* alhazen::raster_kernel_plain() {
-    static constexpr RasterKernel kernel{"plain", [] { return true; }, &draw_batch, &project_points};
+    static constexpr RasterKernel kernel{"plain", [] { return true; }, &draw_batch, &project_points,
+                                         &cull_triangles};
     return &kernel;
 }

@@ -15,14 +15,20 @@ using alhazen::RasterBatch;
 using alhazen::RasterTarget;
 using alhazen::RasterTriangle;
 
-using Floats = float __attribute__((vector_size(32)));
-using Ints = std::int32_t __attribute__((vector_size(32)));
+// As many pixels as fit into a register: one row of a block or two.
+#if defined(__AVX512F__)
+constexpr int lanes = 16;
+#else
+constexpr int lanes = 8;
+#endif
+using Floats = float __attribute__((vector_size(4 * lanes)));
+using Ints = std::int32_t __attribute__((vector_size(4 * lanes)));
 
 constexpr std::int32_t block = alhazen::raster_block, block_pixels = alhazen::raster_block_pixels;
 constexpr std::int32_t subpixels = alhazen::raster_subpixels, subpixel_bits = alhazen::raster_subpixel_bits;
 // Within a block an edge function changes by less than this, as triangles have sides below 2^14 pixels.
 constexpr std::int64_t far_away = std::int64_t{1} << 30;
-// Changes after which a block's far side is worth finding again.
+// Triangles after which a block's far side is worth finding again.
 constexpr std::uint32_t many_changes = 12;
 
 template <class To, class From>
@@ -83,12 +89,12 @@ ALHAZEN_INLINE void find_far_side(RasterTarget& target, std::int32_t number) {
     const float* nearness =
         target.nearness + static_cast<std::size_t>(number) * target.samples * block_pixels;
     Floats least = load<Floats>(nearness);
-    for (std::uint32_t i = 8; i < target.samples * block_pixels; i += 8) {
+    for (std::uint32_t i = lanes; i < target.samples * block_pixels; i += lanes) {
         const Floats other = load<Floats>(nearness + i);
         least = other < least ? other : least;
     }
     float smallest = least[0];
-    for (int i = 1; i < 8; ++i) smallest = least[i] < smallest ? least[i] : smallest;
+    for (int i = 1; i < lanes; ++i) smallest = least[i] < smallest ? least[i] : smallest;
     target.block_nearness[number] = smallest;
     target.block_changes[number] = 0;
 }
@@ -102,48 +108,58 @@ ALHAZEN_INLINE float nearest_in_block(const ReadyTriangle& t, std::int32_t bx, s
     return most < t.q_max ? most : t.q_max;
 }
 
-/// Rows first ... end - 1 of one sample of the block; whether anything was drawn. filter: see RasterBatch.
+/// Lane by lane the pixel's column and row in the vector's first row.
+template <class V>
+ALHAZEN_INLINE V columns() {
+    V v;
+    for (int i = 0; i < lanes; ++i) v[i] = static_cast<decltype(v[0] + 0)>(i % block);
+    return v;
+}
+template <class V>
+ALHAZEN_INLINE V rows() {
+    V v;
+    for (int i = 0; i < lanes; ++i) v[i] = static_cast<decltype(v[0] + 0)>(i / block);
+    return v;
+}
+
+/// Rows first ... end - 1 of one sample of the block, and perhaps more. filter:
+/// see RasterBatch.
 template <class Filter>
-ALHAZEN_INLINE bool draw_sample(const ReadyTriangle& t, std::int32_t bx, std::int32_t by, std::int32_t first,
+ALHAZEN_INLINE void draw_sample(const ReadyTriangle& t, std::int32_t bx, std::int32_t by, std::int32_t first,
                                 std::int32_t end, std::int32_t sample_x, std::int32_t sample_y,
                                 float* nearness, std::uint32_t* fragment, std::uint32_t number,
                                 const Filter& filter) {
-    const Ints lane = {0, 1, 2, 3, 4, 5, 6, 7};
     const std::int64_t x = std::int64_t{bx} * subpixels + sample_x;
     const std::int64_t y = std::int64_t{by} * subpixels + sample_y;
     const Edges& edges = t.edges;
-    Ints e0 = lane * edges.a[0] + edge_at(edges, 0, x, y) + first * edges.b[0];
-    Ints e1 = lane * edges.a[1] + edge_at(edges, 1, x, y) + first * edges.b[1];
-    Ints e2 = lane * edges.a[2] + edge_at(edges, 2, x, y) + first * edges.b[2];
+    auto edge = [&](int e) {
+        return columns<Ints>() * edges.a[e] + rows<Ints>() * edges.b[e] + edge_at(edges, e, x, y) +
+               first * edges.b[e];
+    };
+    Ints e0 = edge(0), e1 = edge(1), e2 = edge(2);
     constexpr double pixel = 1.0 / subpixels;
-    const Floats along = {0, 1, 2, 3, 4, 5, 6, 7};
     const alhazen::RasterPlane& plane = t.plane;
-    const Floats start = along * static_cast<float>(plane.qx) +
+    const Floats start = columns<Floats>() * static_cast<float>(plane.qx) +
                          static_cast<float>(plane.q0 + plane.qx * (bx + sample_x * pixel) +
                                             plane.qy * (by + sample_y * pixel));
     const auto down = static_cast<float>(plane.qy);
     const Floats q_min = Floats{} + t.q_min, q_max = Floats{} + t.q_max;
     const Ints mine = Ints{} + static_cast<std::int32_t>(number);
-    Ints drawn{};
-    for (std::int32_t row = first; row < end; ++row) {
+    for (std::int32_t row = first; row < end; row += lanes / block) {
         float* place = nearness + row * block;
         const Floats old = load<Floats>(place);
         const Ints before = load<Ints>(fragment + row * block);
-        Floats q = start + static_cast<float>(row) * down;
+        Floats q = start + (rows<Floats>() + static_cast<float>(row)) * down;
         q = q < q_min ? q_min : q;
         q = q > q_max ? q_max : q;
         Ints wins = ((e0 | e1 | e2) >= 0) & ((q > old) | ((q == old) & (mine < before)));
         filter(wins, row);
         store(place, wins ? q : old);
         store(fragment + row * block, wins ? mine : before);
-        drawn |= wins;
-        e0 += edges.b[0];
-        e1 += edges.b[1];
-        e2 += edges.b[2];
+        e0 += edges.b[0] * (lanes / block);
+        e1 += edges.b[1] * (lanes / block);
+        e2 += edges.b[2] * (lanes / block);
     }
-    using Halves = std::int64_t __attribute__((vector_size(32)));
-    const Halves halves = load<Halves>(&drawn);
-    return ((halves[0] | halves[1]) | (halves[2] | halves[3])) != 0;
 }
 
 ALHAZEN_INLINE void draw_in_block(RasterTarget& target, const RasterBatch& batch, const RasterTriangle& t,
@@ -152,24 +168,24 @@ ALHAZEN_INLINE void draw_in_block(RasterTarget& target, const RasterBatch& batch
     if (!fits_block(t) && (!(nearest_in_block(ready, bx, by) >= target.block_nearness[at]) ||
                            misses(ready.edges, bx, by, block)))
         return;
-    const std::int32_t first = t.y0 > by ? t.y0 - by : 0;
+    const std::int32_t first = t.y0 > by ? (t.y0 - by) / (lanes / block) * (lanes / block) : 0;
     const std::int32_t end = t.y1 < by + block ? t.y1 - by : block;
-    bool drawn = false;
     for (std::uint32_t s = 0; s < target.samples; ++s) {
         const std::size_t place = (static_cast<std::size_t>(at) * target.samples + s) * block_pixels;
         const auto everywhere = [](Ints&, std::int32_t) {};
         const auto tested = [&](Ints& wins, std::int32_t row) {
-            for (int i = 0; i < 8; ++i)
-                if (wins[i] && !batch.accept(batch.owner, number, bx + i, by + row, s)) wins[i] = 0;
+            for (int i = 0; i < lanes; ++i)
+                if (wins[i] && !batch.accept(batch.owner, number, bx + i % block, by + row + i / block, s))
+                    wins[i] = 0;
         };
         if (batch.accept)
-            drawn |= draw_sample(ready, bx, by, first, end, target.sample_x[s], target.sample_y[s],
-                                 target.nearness + place, target.fragment + place, number, tested);
+            draw_sample(ready, bx, by, first, end, target.sample_x[s], target.sample_y[s],
+                        target.nearness + place, target.fragment + place, number, tested);
         else
-            drawn |= draw_sample(ready, bx, by, first, end, target.sample_x[s], target.sample_y[s],
-                                 target.nearness + place, target.fragment + place, number, everywhere);
+            draw_sample(ready, bx, by, first, end, target.sample_x[s], target.sample_y[s],
+                        target.nearness + place, target.fragment + place, number, everywhere);
     }
-    target.block_changes[at] += drawn;
+    ++target.block_changes[at];
 }
 
 ALHAZEN_INLINE void draw_in_tile(RasterTarget& target, const RasterBatch& batch, std::uint32_t local) {

@@ -6,8 +6,6 @@
 /// sample twice.
 #pragma once
 
-#include <optional>
-
 #include "base/bounds.h"
 #include "raster/kernel.h"
 
@@ -18,12 +16,6 @@ inline constexpr int viewport_size = 4096;
 
 /// A corner within the guard band.
 RasterCorner make_corner(double x, double y, double q);
-
-/// nullopt for triangles that cover no place where a sample may be, in a part of the viewport (pixels).
-/// single_sample: whether there is one sample a pixel, in the middle, or several, which may be anywhere.
-/// Which corners, which plane and of which draw and primitive is left to the caller.
-std::optional<RasterTriangle> set_up_triangle(const RasterCorner& a, const RasterCorner& b,
-                                              const RasterCorner& c, const Rect2i& part, bool single_sample);
 
 /// Whether the triangle, which may be large, covers nothing of a tile: tx and ty count tiles.
 bool misses_tile(const RasterTriangle& triangle, const RasterCorner& a, const RasterCorner& b,

@@ -12,8 +12,9 @@ namespace {
 struct Seen {
     std::uint32_t number = DrawnTile::nothing;
     int samples = 0;
-    Vec2 sum;   ///< of its samples' places
-    Vec2 first; ///< one of them
+    Vec2 sum;             ///< of its samples' places
+    float nearness = 0;   ///< the sum of its samples'
+    std::uint32_t sample; ///< one of them
 };
 
 /// A BSDF, and what is asked of it again and again.
@@ -23,6 +24,12 @@ struct KnownBsdf {
     std::optional<Spectrum> matte;
 };
 
+/// A place on the film, and how near what is seen there is.
+struct Spot {
+    Vec2 film;
+    float nearness;
+};
+
 } // namespace
 
 /// Shades one tile.
@@ -30,68 +37,115 @@ class TileShading::Shader {
   public:
     Shader(const TileShading& owner, const DrawnTile& tile, const Take& take)
         : camera_(owner.camera_), rays_(owner.rays_), lights_(owner.lights_), shading_(owner.shading_),
-          cone_(owner.cone_), tile_(tile), take_(take) {}
+          cone_(owner.cone_), tile_(tile), take_(take) {
+        for (std::uint32_t s = 0; s < tile_.samples(); ++s) sum_of_places_ += tile_.sample_place(s);
+    }
 
     void shade() {
-        for (int y = tile_.pixels().lo.y; y < tile_.pixels().hi.y; ++y)
-            for (int x = tile_.pixels().lo.x; x < tile_.pixels().hi.x; ++x)
-                if (tile_.samples() == 1)
-                    shade({tile_.number({x, y}, 0), 1, {0.5f, 0.5f}, {0.5f, 0.5f}}, {x, y});
-                else
-                    shade_samples({x, y});
-        flush();
+        // Block by block, since the triangles of neighbouring pixels are often the same.
+        const Rect2i& all = tile_.pixels();
+        for (int y = all.lo.y; y < all.hi.y; y = next_block(y))
+            for (int x = all.lo.x; x < all.hi.x; x = next_block(x))
+                shade({{x, y}, {std::min(next_block(x), all.hi.x), std::min(next_block(y), all.hi.y)}});
+        light_batch();
+        hand_over();
     }
 
   private:
-    void shade_samples(Vec2i pixel) {
+    static int next_block(int x) { return (x / raster_block + 1) * raster_block; }
+
+    void shade(const Rect2i& pixels) {
+        for (int y = pixels.lo.y; y < pixels.hi.y; ++y)
+            for (int x = pixels.lo.x; x < pixels.hi.x; ++x) shade_pixel({x, y});
+    }
+
+    void shade_pixel(Vec2i pixel) {
+        const std::uint32_t number = tile_.number(pixel, 0);
+        const std::uint32_t samples = tile_.samples();
+        float nearness = tile_.nearness(pixel, 0);
+        std::uint32_t same = 1;
+        for (; same < samples && tile_.number(pixel, same) == number; ++same)
+            nearness += tile_.nearness(pixel, same);
+        if (same == samples)
+            shade({number, static_cast<int>(samples), sum_of_places_, nearness, 0}, pixel);
+        else
+            shade_several(pixel);
+    }
+
+    void shade_several(Vec2i pixel) {
         std::array<Seen, raster_max_samples> seen;
         std::size_t count = 0;
         for (std::uint32_t s = 0; s < tile_.samples(); ++s) {
             const std::uint32_t number = tile_.number(pixel, s);
-            const Vec2 place = tile_.sample_place(s);
             std::size_t i = 0;
             while (i < count && seen[i].number != number) ++i;
-            if (i == count) seen[count++] = {number, 0, {}, place};
+            if (i == count) seen[count++] = {number, 0, {}, 0, s};
             ++seen[i].samples;
-            seen[i].sum += place;
+            seen[i].sum += tile_.sample_place(s);
+            seen[i].nearness += tile_.nearness(pixel, s);
         }
         for (std::size_t i = 0; i < count; ++i) shade(seen[i], pixel);
     }
 
     void shade(const Seen& seen, Vec2i pixel) {
-        // The middle of the samples is within every triangle that has them all; of other shapes one is taken.
         const Vec2 corner{static_cast<float>(pixel.x), static_cast<float>(pixel.y)};
-        const Vec2 middle = corner + seen.sum * (1 / static_cast<float>(seen.samples));
+        const float share = 1 / static_cast<float>(seen.samples);
+        const Vec2 middle = corner + seen.sum * share;
         if (seen.number == DrawnTile::nothing) {
             const Spectrum L =
                 lights_.infinite.empty()
                     ? Spectrum(0)
                     : lights_.background(rays_.origin(middle), normalize(rays_.direction(middle)));
-            return take_(pixel, L, seen.samples);
+            return take({pixel, seen.samples, L});
         }
-        if (seen.number != cached_) look_at(seen.number);
+        if (seen.number != cached_) look_at(seen.number, middle);
+        // The middle of the samples is within every triangle that has them all, and as near as they are on
+        // average; of other shapes one sample is taken.
+        const Spot spot = triangle_mesh_ ? Spot{middle, seen.nearness * share}
+                                         : Spot{corner + tile_.sample_place(seen.sample),
+                                                tile_.nearness(pixel, seen.sample)};
+        if (is_uniform_matte_) return add_uniform_matte(pixel, seen.samples, spot);
         if (is_simple_)
-            triangle_.fill(rays_.origin(middle), rays_.direction(middle), hit_);
-        else if (!find_hit(triangle_mesh_ ? middle : corner + seen.first))
-            return take_(pixel, 0, seen.samples);
+            triangle_.fill(rays_.origin(spot.film), rays_.direction(spot.film), hit_);
+        else if (!find_hit(spot.film))
+            return take({pixel, seen.samples, 0});
         const KnownBsdf* known = bsdf_at_hit();
         if (!known->bsdf)
-            take_(pixel, 0, seen.samples); // a mixture's part that is only a border of media
+            take({pixel, seen.samples, 0}); // a mixture's part that is only a border of media
         else if (known->matte && !hit_.area_light)
-            add_matte(pixel, *known->matte, seen.samples);
+            add_matte(pixel, seen.samples, spot, {hit_.ng, hit_.ns}, *known->matte);
         else
-            take_(pixel, shading_.radiance(hit_, *known->bsdf), seen.samples);
+            take({pixel, seen.samples, shading_.radiance(hit_, *known->bsdf)});
     }
 
-    void look_at(std::uint32_t number) {
+    // film: some place where it is seen.
+    void look_at(std::uint32_t number, Vec2 film) {
         cached_ = number;
         const Fragment fragment = tile_.fragment(number);
         surface_ = fragment.surface;
         primitive_ = fragment.primitive;
-        triangle_mesh_ = surface_->placed().shape->triangles();
-        const Material* material = surface_->placed().material;
-        is_simple_ = triangle_mesh_ && surface_->depth == 0 && !(material && material->has_relief());
-        if (is_simple_) triangle_.set(*surface_, primitive_);
+        const PlacedShape& placed = surface_->placed();
+        triangle_mesh_ = placed.shape->triangles();
+        is_simple_ =
+            triangle_mesh_ && surface_->depth == 0 && !(placed.material && placed.material->has_relief());
+        is_uniform_matte_ = false;
+        if (!is_simple_) return;
+        triangle_.set(*surface_, primitive_);
+        if (!placed.material || !placed.material->is_uniform()) return;
+        if (!placed.lights.empty() && placed.lights[primitive_]) return;
+        if (last_ >= uniform_.size() || uniform_[last_].material != placed.material) {
+            triangle_.fill(rays_.origin(film), rays_.direction(film), hit_);
+            bsdf_at_hit();
+        }
+        is_uniform_matte_ = uniform_[last_].matte.has_value();
+        if (is_uniform_matte_) matte_ = *uniform_[last_].matte;
+    }
+
+    void add_uniform_matte(Vec2i pixel, int samples, const Spot& spot) {
+        if (!triangle_.has_normals())
+            return add_matte(pixel, samples, spot, {triangle_.normal(), triangle_.normal()}, matte_);
+        const Vec3 p = rays_.origin(spot.film) + rays_.direction(spot.film) * rays_.steps(spot.nearness);
+        add_matte(pixel, samples, spot, triangle_.normals_at(p), matte_);
     }
 
     bool find_hit(Vec2 film) {
@@ -128,32 +182,59 @@ class TileShading::Shader {
         return &uniform_.back();
     }
 
-    void add_matte(Vec2i pixel, Spectrum matte, int samples) {
+    void add_matte(Vec2i pixel, int samples, const Spot& spot, const TriangleCache::Normals& normals,
+                   Spectrum matte) {
         const std::size_t i = batch_.count++;
-        const Vec3 n = face_forward(hit_.ns, hit_.wo);
-        batch_.px[i] = hit_.p.x;
-        batch_.py[i] = hit_.p.y;
-        batch_.pz[i] = hit_.p.z;
-        batch_.nx[i] = n.x;
-        batch_.ny[i] = n.y;
-        batch_.nz[i] = n.z;
-        batch_.gx[i] = hit_.ng.x;
-        batch_.gy[i] = hit_.ng.y;
-        batch_.gz[i] = hit_.ng.z;
+        spots_.x[i] = spot.film.x;
+        spots_.y[i] = spot.film.y;
+        spots_.nearness[i] = spot.nearness;
+        batch_.nx[i] = normals.ns.x;
+        batch_.ny[i] = normals.ns.y;
+        batch_.nz[i] = normals.ns.z;
+        batch_.gx[i] = normals.ng.x;
+        batch_.gy[i] = normals.ng.y;
+        batch_.gz[i] = normals.ng.z;
         batch_.red[i] = matte[0];
         batch_.green[i] = matte[1];
         batch_.blue[i] = matte[2];
         waiting_[i] = {pixel, samples};
-        if (batch_.count == MatteBatch::capacity) flush();
+        if (batch_.count == MatteBatch::capacity) light_batch();
     }
 
-    void flush() {
+    // From the places on the film to those in the scene; normals are turned to the eye.
+    void place_batch() {
+        for (std::size_t i = 0; i < batch_.count; ++i) {
+            const Vec2 film{spots_.x[i], spots_.y[i]};
+            const Vec3 d = rays_.direction(film);
+            const Vec3 p = rays_.origin(film) + d * rays_.steps(spots_.nearness[i]);
+            batch_.px[i] = p.x;
+            batch_.py[i] = p.y;
+            batch_.pz[i] = p.z;
+            const float turn =
+                batch_.nx[i] * d.x + batch_.ny[i] * d.y + batch_.nz[i] * d.z > 0 ? -1.0f : 1.0f;
+            batch_.nx[i] *= turn;
+            batch_.ny[i] *= turn;
+            batch_.nz[i] *= turn;
+        }
+    }
+
+    void light_batch() {
+        place_batch();
         shading_.light(batch_);
         for (std::size_t i = 0; i < batch_.count; ++i) {
             const float r = batch_.red[i], g = batch_.green[i], b = batch_.blue[i];
-            take_(waiting_[i].pixel, {r, g, b, (r + g + b) / 3}, waiting_[i].samples);
+            take({waiting_[i].pixel, waiting_[i].samples, {r, g, b, (r + g + b) / 3}});
         }
         batch_.count = 0;
+    }
+
+    void take(const Shaded& shaded) {
+        shaded_[shaded_count_++] = shaded;
+        if (shaded_count_ == shaded_.size()) hand_over();
+    }
+    void hand_over() {
+        take_({shaded_.data(), shaded_count_});
+        shaded_count_ = 0;
     }
 
     const Camera& camera_;
@@ -163,12 +244,15 @@ class TileShading::Shader {
     const PixelCone* cone_;
     const DrawnTile& tile_;
     const Take& take_;
+    Vec2 sum_of_places_; ///< of a pixel's samples
 
     std::uint32_t cached_ = DrawnTile::nothing; ///< the fragment that these belong to
     const PlacedSurface* surface_ = nullptr;
     std::uint32_t primitive_ = 0;
     const TriangleMesh* triangle_mesh_ = nullptr;
-    bool is_simple_ = false;
+    bool is_simple_ = false;        ///< a triangle whose hits triangle_ knows
+    bool is_uniform_matte_ = false; ///< such a one, which shows matte_ all over
+    Spectrum matte_ = 0;
     TriangleCache triangle_;
     Hit hit_;
 
@@ -182,7 +266,12 @@ class TileShading::Shader {
         int samples;
     };
     std::array<Waiting, MatteBatch::capacity> waiting_;
+    struct {
+        MatteBatch::Array x, y, nearness;
+    } spots_; ///< where the batch's points are on the film
     alignas(64) MatteBatch batch_;
+    std::array<Shaded, 256> shaded_;
+    std::size_t shaded_count_ = 0;
 };
 
 void TileShading::shade(const DrawnTile& tile, const Take& take) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "raster/film_rays.h"
 #include "raster/rasterizer.h"
@@ -17,8 +18,14 @@ class TileShading {
                 const PixelCone* cone)
         : camera_(camera), rays_(*camera.projection()), lights_(lights), shading_(shading), cone_(cone) {}
 
-    /// Takes the light of a pixel, or of so many of its samples.
-    using Take = std::function<void(Vec2i pixel, Spectrum L, int samples)>;
+    /// The light of a pixel, or of so many of its samples.
+    struct Shaded {
+        Vec2i pixel;
+        int samples;
+        Spectrum L;
+    };
+    /// Takes some of them.
+    using Take = std::function<void(std::span<const Shaded>)>;
     void shade(const DrawnTile& tile, const Take& take) const;
 
   private:

@@ -29,6 +29,22 @@ Image filtered(const Filter& filter, int spp, Picture picture) {
     return film->image();
 }
 
+// Samples 1, 2, 4, 3 with weights 1, 1, 3, -2: of the mean 2.5 and the mean weight 3/4 the covariance is
+// (1 + 2 + 12 - 6) / 4 - 2.5 * 3/4 = 0.375. A picture started anew knows nothing of it.
+TEST(FilmWeights, MayBeOtherThanOneFromTheMiddleOn) {
+    auto film = testing_support::make_member(
+        film_kinds(), "rgb", {make_integer("xresolution", 2), make_integer("yresolution", 1)});
+    film->start(ColorMode::rgb);
+    for (auto [value, weight] : {std::pair{1.0f, 1.0f}, {2.0f, 1.0f}, {4.0f, 3.0f}, {3.0f, -2.0f}})
+        film->add({1, 0}, Spectrum(value), Wavelengths::rgb(), weight);
+    EXPECT_NEAR(film->image().rgb(1, 0)[0], 2.875f, 1e-5f);
+    film->start(ColorMode::rgb);
+    film->add({1, 0}, Spectrum(5.0f), Wavelengths::rgb(), 1);
+    EXPECT_NEAR(film->image().rgb(1, 0)[0], 5, 1e-5f);
+    film->add({1, 0}, Spectrum(7.0f), Wavelengths::rgb(), 3);
+    EXPECT_NEAR(film->image().rgb(1, 0)[0], 7, 1e-5f); // 6 + (5 + 21) / 2 - 6 * 2
+}
+
 struct SignedFilter : testing::TestWithParam<const char*> {
     std::unique_ptr<Filter> filter = testing_support::make_member(filter_kinds(), GetParam(), {});
 };

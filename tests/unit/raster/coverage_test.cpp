@@ -36,11 +36,13 @@ class Canvas {
     void draw(const Triangle& t) {
         std::array<RasterCorner, 3> corners;
         for (std::size_t i = 0; i < 3; ++i) corners[i] = make_corner(t[i].x, t[i].y, 1);
-        auto triangle = set_up_triangle(corners[0], corners[1], corners[2], {{0, 0}, size_}, samples_ == 1);
-        if (!triangle) return;
-        for (std::uint16_t i = 0; i < 3; ++i) triangle->corner[i] = i;
+        const std::array<std::uint8_t, 3> sides{};
+        const std::array<std::uint16_t, 3> numbers{0, 1, 2};
+        std::array<RasterTriangle, 2> kept;
+        const RasterPart part{0, 0, size_.x, size_.y, samples_ == 1};
+        if (kernel_.cull(part, corners.data(), sides.data(), numbers.data(), 1, kept.data()) == 0) return;
         for (int y = 0; y < size_.y; y += raster_tile)
-            for (int x = 0; x < size_.x; x += raster_tile) draw_tile(*triangle, corners.data(), x, y);
+            for (int x = 0; x < size_.x; x += raster_tile) draw_tile(kept[0], corners.data(), x, y);
     }
 
     std::vector<int> covered;
@@ -209,15 +211,14 @@ INSTANTIATE_TEST_SUITE_P(Samples, Coverage, ::testing::Values(1, 4, 8, 16));
 TEST(CoverageOrder, OfTheEquallyNearTheLowestNumberShows) {
     const std::array<RasterCorner, 4> corners{make_corner(0, 0, 1), make_corner(20, 0, 1),
                                               make_corner(0, 20, 1), make_corner(30, 0, 1)};
-    std::array<RasterTriangle, 2> triangles;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const std::size_t second = i == 0 ? 1 : 3;
-        triangles[i] = *set_up_triangle(corners[0], corners[second], corners[2], {{0, 0}, {32, 32}}, true);
-        const std::array<std::size_t, 3> numbers{0, second, 2};
-        for (std::size_t c = 0; c < 3; ++c) triangles[i].corner[c] = static_cast<std::uint16_t>(numbers[c]);
-    }
+    const std::array<std::uint8_t, 4> sides{};
+    const std::array<std::uint16_t, 6> numbers{0, 1, 2, 0, 3, 2};
+    std::array<RasterTriangle, 3> triangles;
     for (const RasterKernel* kernel : supported_raster_kernels())
         for (const std::array<std::uint32_t, 2>& order : {std::array{0u, 1u}, std::array{1u, 0u}}) {
+            ASSERT_EQ(kernel->cull({0, 0, 32, 32, true}, corners.data(), sides.data(), numbers.data(), 2,
+                                   triangles.data()),
+                      2u);
             std::vector<float> nearness(raster_tile * raster_tile, -infinity);
             std::vector<std::uint32_t> fragment(raster_tile * raster_tile, raster_nothing);
             RasterTarget target{};

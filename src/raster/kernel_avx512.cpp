@@ -1,0 +1,30 @@
+/// The rasteriser's kernel for x86-64 with AVX-512.
+#include <cstddef>
+
+#include "raster/kernel.h"
+
+#if defined(__AVX512F__)
+
+#include "raster/cull_text.h"
+#include "raster/kernel_text.h"
+#include "raster/project_text.h"
+
+const alhazen::RasterKernel* alhazen::raster_kernel_avx512() {
+    static constexpr RasterKernel kernel{"avx512",
+                                         [] {
+                                             return __builtin_cpu_supports("avx512f") &&
+                                                    __builtin_cpu_supports("avx512vl") &&
+                                                    __builtin_cpu_supports("avx512dq") &&
+                                                    __builtin_cpu_supports("avx512bw");
+                                         },
+                                         &draw_batch, &project_points, &cull_triangles};
+    return &kernel;
+}
+
+#else
+
+const alhazen::RasterKernel* alhazen::raster_kernel_avx512() {
+    return nullptr;
+}
+
+#endif
