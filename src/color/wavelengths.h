@@ -1,6 +1,5 @@
 /// Which wavelengths a path carries. Four of them are drawn for each camera sample, a quarter of the density
-/// apart (hero wavelength sampling, Wilkie et al. 2014), where the eye sees most (Pharr et al. 2023,
-/// section 4.5.4).
+/// apart (hero wavelength sampling, Wilkie et al. 2014).
 #pragma once
 
 #include <cmath>
@@ -27,20 +26,14 @@ constexpr std::optional<ColorMode> find_color_mode(std::string_view name) {
 /// The range of wavelengths in nm, those for which the CIE 1931 observer is tabulated.
 inline constexpr float lambda_min = 360, lambda_max = 830;
 
-/// Density (per nm) of the wavelengths that sample_visible draws; 0 outside lambda_min ... lambda_max.
-inline float visible_wavelength_pdf(float lambda) {
-    if (!(lambda >= lambda_min && lambda <= lambda_max)) return 0;
-    return 0.0039398042f / sqr(std::cosh(0.0072f * (lambda - 538)));
-}
+/// Density (per nm) of the wavelengths that sample_visible draws; 0 outside lambda_min ... lambda_max. Found
+/// so that four partners together measure red, green and blue with little error (tools/fit_wavelengths.cpp).
+float visible_wavelength_pdf(float lambda);
 /// The wavelength in nm below which the fraction u (0 <= u <= 1) of that density lies, and the density there.
 struct VisibleWavelength {
     float lambda, pdf;
 };
-inline VisibleWavelength sample_visible_wavelength(float u) {
-    const float t = 0.85691062f - 1.82750197f * u; // tanh(0.0072 (538 - lambda))
-    const float lambda = 538 - 138.888889f / 2 * std::log((1 + t) / (1 - t));
-    return {std::clamp(lambda, lambda_min, lambda_max), 0.0039398042f * (1 - sqr(t))};
-}
+VisibleWavelength sample_visible_wavelength(float u);
 
 /// The wavelengths of one path and the density each was drawn with.
 struct Wavelengths {
@@ -49,17 +42,7 @@ struct Wavelengths {
     Spectrum pdf{1};    ///< per nm; 1 in RGB mode, 0 for terminated lanes
 
     /// Four partners u + i/4 (mod 1) of the visible density; 0 <= u < 1.
-    static Wavelengths sample_visible(float u) {
-        Wavelengths w{ColorMode::spectral, 0, 0};
-        for (int i = 0; i < 4; ++i) {
-            float partner = u + 0.25f * static_cast<float>(i);
-            if (partner >= 1) partner -= 1;
-            const VisibleWavelength sampled = sample_visible_wavelength(partner);
-            w.lambda.set(i, sampled.lambda);
-            w.pdf.set(i, sampled.pdf);
-        }
-        return w;
-    }
+    static Wavelengths sample_visible(float u);
     /// Four partners of the uniform density from lo to hi (nm); 0 <= u < 1.
     static Wavelengths uniform(float u, float lo = lambda_min, float hi = lambda_max) {
         const float range = hi - lo;

@@ -66,7 +66,7 @@ std::string build_error(const KindList<Family>& kinds, const Node& node,
 template <class F>
 Vec3 film_color(ColorMode mode, F radiance) {
     Sensor sensor;
-    int n = mode == ColorMode::rgb ? 1 : 256;
+    int n = mode == ColorMode::rgb ? 1 : 255; // odd: no partner is another sample
     Vec3d sum;
     for (int i = 0; i < n; ++i) {
         Wavelengths lambda =
