@@ -11,7 +11,7 @@ namespace alhazen {
 struct Collision {
     float t = 0; ///< along the ray
     MediumPoint at;
-    Spectrum sigma_maj = 0; ///< the majorant, per unit length of the medium's space
+    Spectrum sigma_maj = 0; ///< the majorant, per unit length
     /// The majorants' transmittance since the collision before, over that at the hero.
     Spectrum transmittance = 1;
 
@@ -27,7 +27,7 @@ class Collisions {
     Collisions(const Medium& medium, const Ray& ray, const Wavelengths& lambda, int hero, float u, Rng rng)
         : medium_(medium), lambda_(lambda), ray_(medium.to_medium(ray)), walk_(medium.majorants(), ray_),
           colors_(medium.colors(lambda)), sigma_t_(colors_.sigma_t()), hero_(hero), first_u_(u), rng_(rng),
-          length_of_d_(length(ray_.d)), is_grey_(sigma_t_ == Spectrum(sigma_t_[hero])) {}
+          length_of_d_(length(ray.d)), is_grey_(sigma_t_ == Spectrum(sigma_t_[hero])) {}
 
     /// The next collision; nullopt when the ray has reached its end.
     std::optional<Collision> next();
@@ -51,7 +51,7 @@ class Collisions {
     int hero_;
     std::optional<float> first_u_;
     Rng rng_;
-    float length_of_d_;
+    float length_of_d_; ///< in the world, where lengths count
     bool is_grey_;
     MajorantSegment segment_;
     float t_ = 0;

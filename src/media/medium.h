@@ -13,8 +13,8 @@
 
 namespace alhazen {
 
-/// Coefficients per unit length of the medium's own space, and the radiance that what absorbs there emits:
-/// sigma_a * Le per unit length.
+/// Coefficients per unit length of the world, however the medium is scaled (as in pbrt-v4), and the radiance
+/// that what absorbs there emits: sigma_a * Le per unit length.
 struct MediumPoint {
     Spectrum sigma_a = 0, sigma_s = 0, Le = 0;
 };

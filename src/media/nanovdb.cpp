@@ -30,7 +30,6 @@ struct NanoVdb final : Medium, CrossSections, TemperatureFields {
         phase_ = HenyeyGreenstein(g);
         glow_ = Glow(context.color_mode);
         if (!read(node, context)) return;
-        // Everything happens in the space of the density's samples; lengths are those of the medium's own.
         world_from_medium_ = context.world_from_node;
         const Bounds3 samples = density_.bounds();
         Bounds3 box;

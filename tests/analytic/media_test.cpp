@@ -78,15 +78,15 @@ TEST(MediaClosedForm, AbsorptionOfAGridOfOneCell) {
     expect_means(measured, {std::exp(-0.2f * depth), std::exp(-0.5f * depth), std::exp(-depth)}, 1e-3);
 }
 
-// In a scaled medium lengths are its own: the box of 2 is half of that from inside.
-TEST(MediaClosedForm, LengthsOfGridsAreTheirOwn) {
+// A scaled medium is larger, and as dense as before: coefficients are per length of the world.
+TEST(MediaClosedForm, ScalingAGridLeavesItsDensity) {
     const std::string medium =
         R"("string type" "uniformgrid" "float density" [ 1 ] "point3 p0" [ -.5 -.5 -.5 ] "point3 p1" [ .5 .5 .5 ]
                                    "rgb sigma_a" [ 1 1 1 ] "rgb sigma_s" [ 0 0 0 ])";
     std::string text = through_the_box(volpath, 64, medium, white_sky);
     text.insert(text.find("MakeNamedMedium"), "AttributeBegin Scale 2 2 2\n");
     text.insert(text.find("Material \"interface\""), "AttributeEnd\n");
-    expect_means(measure(text, ColorMode::rgb), Vec3(std::exp(-0.75f)), 1e-3);
+    expect_means(measure(text, ColorMode::rgb), Vec3(std::exp(-2 * 0.75f)), 1e-3);
 }
 
 TEST(MediaClosedForm, EmissionWithoutScattering) {

@@ -76,7 +76,7 @@ TEST(Media, CollisionsFollowTheTransmittance) {
             const MajorantGrid& grid = medium.majorants();
             if (!grid.is_everywhere() && !grid.box().contains(p)) continue;
             const MediumPoint at = medium.at(p, colors, lambda);
-            depth += (at.sigma_a + at.sigma_s) * (ray.tmax / steps * length(local.d));
+            depth += (at.sigma_a + at.sigma_s) * (ray.tmax / steps * length(ray.d));
         }
         Rng rng(2);
         for (int hero = 0; hero < 3; ++hero) {
