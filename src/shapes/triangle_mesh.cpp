@@ -108,7 +108,7 @@ Hit TriangleMesh::surface(const Ray& ray, std::uint32_t triangle, const Intersec
     set_tangents(hit, sides.ab, sides.ac, Vec2d(corner[1]) - Vec2d(corner[0]),
                  Vec2d(corner[2]) - Vec2d(corner[0]));
     if (!N.empty() || !S.empty())
-        set_shading_tangents(hit, S.empty() ? hit.dpdu : weigh(S, corner_indices(triangle), b));
+        set_shading_tangents(hit, S.empty() ? Vec3() : weigh(S, corner_indices(triangle), b));
     return hit;
 }
 
@@ -147,13 +147,17 @@ void TriangleMesh::set_tangents(Hit& hit, Vec3d ab, Vec3d ac, Vec2d uv_ab, Vec2d
     }
 }
 
-// The tangent (or, where there is none, dpdu) laid across the shading normal.
+// Tangents laid across the shading normal. The parameters' own keep what they say of lengths and angles,
+// which bumps and footprints of textures go by; one that the mesh gives instead of them is completed to a
+// square.
 void TriangleMesh::set_shading_tangents(Hit& hit, Vec3 tangent) {
-    if (!(length_squared(tangent) > 0)) tangent = hit.dpdu;
-    const Vec3 bitangent = cross(hit.ns, tangent);
-    if (length_squared(bitangent) > 0) {
-        hit.dpdu = tangent - hit.ns * dot(hit.ns, tangent);
-        hit.dpdv = bitangent;
+    auto across = [&](Vec3 t) { return t - hit.ns * dot(hit.ns, t); };
+    const bool is_given = length_squared(tangent) > 0;
+    const Vec3 u = across(is_given ? tangent : hit.dpdu),
+               v = is_given ? cross(hit.ns, tangent) : across(hit.dpdv);
+    if (length_squared(cross(u, v)) > 0) {
+        hit.dpdu = u;
+        hit.dpdv = v;
     } else {
         Frame frame = Frame::from_z(hit.ns);
         hit.dpdu = frame.x;

@@ -71,6 +71,7 @@ struct TriangleMesh : Shape {
     // Without uv and tangents.
     Hit plain_hit(const Ray& ray, std::uint32_t triangle, const Intersection& met, const Sides& sides) const;
     static void set_tangents(Hit& hit, Vec3d ab, Vec3d ac, Vec2d uv_ab, Vec2d uv_ac);
+    /// tangent: the mesh's own; zero if it has none.
     static void set_shading_tangents(Hit& hit, Vec3 tangent);
 
     bool is_turned_ = false;

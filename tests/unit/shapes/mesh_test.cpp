@@ -80,6 +80,27 @@ TEST(TriangleMesh, TangentsFollowS) {
     EXPECT_NEAR(h.dpdu.z, 0, 1e-6);
 }
 
+TEST(TriangleMesh, VertexNormalsLeaveTheParametersScalesAndAngles) {
+    // p = (2 u + v, v / 4, 0) and the mirrored parameters: their tangents are neither as long as each other
+    // nor square.
+    const std::vector<Vec2> uv{{0, 0}, {0.5f, 0}, {-2, 4}};
+    for (const float side : {1.0f, -1.0f}) {
+        SCOPED_TRACE(side);
+        std::vector<Vec2> parameters = uv;
+        for (Vec2& p : parameters) p.x *= side;
+        for (const Vec3& n : {Vec3(0, 0, 1), normalize(Vec3(0.3f, -0.2f, 1))}) {
+            auto mesh = make("trianglemesh", {points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
+                                              make_array("uv", ValueType::point2, parameters),
+                                              make_array("N", ValueType::normal, std::vector<Vec3>(3, n))});
+            const Hit h = hit(*mesh, {{0.25f, 0.25f, 3}, {0, 0, -1}});
+            // Tangents of the shading surface: less what stands along its normal.
+            auto across = [&](Vec3 t) { return t - n * dot(n, t); };
+            EXPECT_LT(length(h.dpdu - across({2 * side, 0, 0})), 1e-6f);
+            EXPECT_LT(length(h.dpdv - across({1, 0.25f, 0})), 1e-6f);
+        }
+    }
+}
+
 TEST(TriangleMesh, DegenerateTrianglesAreNeverHit) {
     auto mesh =
         make("trianglemesh", {points({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0.1f, 0.1f, 0.1f}, {0.3f, 0.1f, 0}}),
