@@ -24,6 +24,13 @@ struct KnownBsdf {
     std::optional<Spectrum> matte;
 };
 
+/// A flat triangle that shows the same all over.
+struct Flat {
+    std::uint32_t number = DrawnTile::nothing;
+    Vec3 normal;
+    Spectrum matte = 0;
+};
+
 /// A place on the film, and how near what is seen there is.
 struct Spot {
     Vec2 film;
@@ -98,6 +105,10 @@ class TileShading::Shader {
                     : lights_.background(rays_.origin(middle), normalize(rays_.direction(middle)));
             return take({pixel, seen.samples, L});
         }
+        const Flat& flat = flats_[seen.number % flats_.size()];
+        if (flat.number == seen.number)
+            return add_matte(pixel, seen.samples, {middle, seen.nearness * share}, {flat.normal, flat.normal},
+                             flat.matte);
         if (seen.number != cached_) look_at(seen.number, middle);
         // The middle of the samples is within every triangle that has them all, and as near as they are on
         // average; of other shapes one sample is taken.
@@ -122,28 +133,32 @@ class TileShading::Shader {
     void look_at(std::uint32_t number, Vec2 film) {
         cached_ = number;
         const Fragment fragment = tile_.fragment(number);
-        surface_ = fragment.surface;
         primitive_ = fragment.primitive;
-        const PlacedShape& placed = surface_->placed();
-        triangle_mesh_ = placed.shape->triangles();
-        is_simple_ =
-            triangle_mesh_ && surface_->depth == 0 && !(placed.material && placed.material->has_relief());
+        if (surface_ != fragment.surface) look_at(*fragment.surface);
         is_uniform_matte_ = false;
         if (!is_simple_) return;
         triangle_.set(*surface_, primitive_);
-        if (!placed.material || !placed.material->is_uniform()) return;
-        if (!placed.lights.empty() && placed.lights[primitive_]) return;
+        const PlacedShape& placed = surface_->placed();
+        if (!is_uniform_ || (!placed.lights.empty() && placed.lights[primitive_])) return;
         if (last_ >= uniform_.size() || uniform_[last_].material != placed.material) {
             triangle_.fill(rays_.origin(film), rays_.direction(film), hit_);
             bsdf_at_hit();
         }
         is_uniform_matte_ = uniform_[last_].matte.has_value();
-        if (is_uniform_matte_) matte_ = *uniform_[last_].matte;
+        if (!is_uniform_matte_) return;
+        matte_ = *uniform_[last_].matte;
+        if (!triangle_.has_normals()) flats_[number % flats_.size()] = {number, triangle_.normal(), matte_};
+    }
+    void look_at(const PlacedSurface& surface) {
+        surface_ = &surface;
+        const PlacedShape& placed = surface.placed();
+        triangle_mesh_ = placed.shape->triangles();
+        is_simple_ =
+            triangle_mesh_ && surface_->depth == 0 && !(placed.material && placed.material->has_relief());
+        is_uniform_ = placed.material && placed.material->is_uniform();
     }
 
     void add_uniform_matte(Vec2i pixel, int samples, const Spot& spot) {
-        if (!triangle_.has_normals())
-            return add_matte(pixel, samples, spot, {triangle_.normal(), triangle_.normal()}, matte_);
         const Vec3 p = rays_.origin(spot.film) + rays_.direction(spot.film) * rays_.steps(spot.nearness);
         add_matte(pixel, samples, spot, triangle_.normals_at(p), matte_);
     }
@@ -251,9 +266,11 @@ class TileShading::Shader {
     std::uint32_t primitive_ = 0;
     const TriangleMesh* triangle_mesh_ = nullptr;
     bool is_simple_ = false;        ///< a triangle whose hits triangle_ knows
+    bool is_uniform_ = false;       ///< its material is the same all over
     bool is_uniform_matte_ = false; ///< such a one, which shows matte_ all over
     Spectrum matte_ = 0;
     TriangleCache triangle_;
+    std::array<Flat, 128> flats_; ///< those seen last, by number: rows of pixels come back to them
     Hit hit_;
 
     Arena arena_, uniform_arena_;
