@@ -6,14 +6,14 @@ namespace alhazen {
 
 namespace {
 
-Collisions collisions_of(const Medium& medium, const Ray& ray, int hero, const PathContext& path,
+Collisions collisions_of(const Medium& medium, const Ray& ray, int hero, PathContext& path,
                          MediumNumbers& numbers) {
     const MediumNumbers::Start start = numbers.next();
-    return Collisions(medium, ray, path.lambda, hero, start.u, Rng(start.key));
+    return Collisions(medium, ray, path.lambda, path.colors_of(medium), hero, start.u, Rng(start.key));
 }
 
 // Through one medium towards a light; where hardly any of it is left, three of four such rays are given up.
-void weaken_by(const Medium& medium, const Ray& ray, LaneWeights& weights, const PathContext& path,
+void weaken_by(const Medium& medium, const Ray& ray, LaneWeights& weights, PathContext& path,
                MediumNumbers& numbers) {
     constexpr float hardly_any = 0.05f, given_up = 0.75f;
     const float whole = weights.shadow_transmittance();

@@ -10,6 +10,7 @@
 #include "film/visible_surface.h"
 #include "integrators/ray_queue.h"
 #include "integrators/task.h"
+#include "media/medium.h"
 #include "samplers/sampler.h"
 #include "scene/scene.h"
 
@@ -50,6 +51,15 @@ class PathContext {
         if (light.has_extent()) return samples.next2();
         samples.skip(2);
         return {};
+    }
+
+    /// The medium's colours at the path's wavelengths.
+    const MediumColors& colors_of(const Medium& medium) {
+        if (&medium != colored_) {
+            colors_ = medium.colors(lambda);
+            colored_ = &medium;
+        }
+        return colors_;
     }
 
     /// An awaitable that gives the nearest hit, or nullopt. The ray must live until then.
@@ -109,6 +119,8 @@ class PathContext {
     RayCounts& counts_;
     RayQueue* queue_;
     std::uint32_t number_;
+    const Medium* colored_ = nullptr; ///< the medium whose colours were asked for last
+    MediumColors colors_;
     bool first_ray_ = true;
     Vec3 first_direction_;
 };

@@ -38,14 +38,43 @@ struct CellPlace {
     float fraction;
 };
 
-CellPlace find_cell(std::span<const float> cdf, float u) {
+// Cells are looked for between the hints for u's part of [0, 1), of which a row has so many and one more.
+std::size_t hint_count(std::size_t cells) {
+    return std::max<std::size_t>(cells / 4, 1);
+}
+
+// hints[i]: the cell that i / hint_count() falls into.
+void build_hints(std::span<const float> cdf, std::span<std::uint32_t> hints) {
+    const std::size_t last_cell = cdf.size() - 2, parts = hints.size() - 1;
+    std::size_t cell = 0;
+    for (std::size_t i = 0; i <= parts; ++i) {
+        const float u = static_cast<float>(i) / static_cast<float>(parts);
+        while (cell < last_cell && cdf[cell + 1] <= u) ++cell;
+        hints[i] = static_cast<std::uint32_t>(cell);
+    }
+}
+
+CellPlace find_cell(std::span<const float> cdf, std::span<const std::uint32_t> hints, float u) {
     // The first bound above u ends the cell, so that cells without width are never chosen.
     u = std::clamp(u, 0.0f, one_minus_epsilon);
-    auto after = std::upper_bound(cdf.begin() + 1, cdf.end() - 1, u);
+    const std::size_t parts = hints.size() - 1;
+    // Rounding may bring it to the next part, whose first cell is then this part's last.
+    const auto part = static_cast<std::size_t>(u * static_cast<float>(parts));
+    const std::size_t first =
+        hints[part > 0 && u < static_cast<float>(part) / static_cast<float>(parts) ? part - 1 : part];
+    const std::size_t last = hints[std::min(part + 1, parts)];
+    auto after = std::upper_bound(cdf.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                                  cdf.begin() + static_cast<std::ptrdiff_t>(last) + 1, u);
     auto cell = static_cast<std::size_t>(after - cdf.begin()) - 1;
     float width = cdf[cell + 1] - cdf[cell];
     float fraction = width > 0 ? (u - cdf[cell]) / width : 0;
     return {cell, std::clamp(fraction, 0.0f, one_minus_epsilon)};
+}
+
+// How much denser a cell is than a row's mean: with what rounding has left of it, since numbers fall into it
+// with just that probability.
+float cell_density(std::span<const float> cdf, std::size_t cell) {
+    return (cdf[cell + 1] - cdf[cell]) * static_cast<float>(cdf.size() - 1);
 }
 
 // x in [0, 1] as cell and place in it.
@@ -62,12 +91,14 @@ float place_in_unit(CellPlace c, std::size_t n) {
 } // namespace
 
 PiecewiseConstant1D::PiecewiseConstant1D(std::span<const float> heights, float lo, float hi)
-    : lo_(lo), hi_(hi), heights_(heights.size()), cdf_(heights.size() + 1) {
+    : lo_(lo), hi_(hi), heights_(heights.size()), cdf_(heights.size() + 1),
+      hints_(hint_count(heights.size()) + 1) {
     integral_ = static_cast<float>(build_row(heights, heights_, cdf_) * static_cast<double>(hi - lo));
+    build_hints(cdf_, hints_);
 }
 
 PiecewiseConstant1D::Sample PiecewiseConstant1D::sample(float u) const {
-    CellPlace c = find_cell(cdf_, u);
+    CellPlace c = find_cell(cdf_, hints_, u);
     float x = lo_ + (hi_ - lo_) * place_in_unit(c, heights_.size());
     return {x, heights_[c.cell] / (hi_ - lo_), static_cast<int>(c.cell)};
 }
@@ -83,20 +114,20 @@ float PiecewiseConstant1D::invert(float x) const {
 }
 
 PiecewiseConstant2D::PiecewiseConstant2D(std::span<const float> heights, int nx, int ny)
-    : nx_(nx), heights_(heights.size()), cdf_(heights.size() + static_cast<std::size_t>(ny)) {
+    : nx_(nx), cdf_(heights.size() + static_cast<std::size_t>(ny)),
+      hints_((hint_count(static_cast<std::size_t>(nx)) + 1) * static_cast<std::size_t>(ny)) {
     const auto width = static_cast<std::size_t>(nx);
     std::vector<float> means(static_cast<std::size_t>(ny));
-    for (std::size_t y = 0; y < means.size(); ++y)
-        means[y] = static_cast<float>(build_row(heights.subspan(y * width, width),
-                                                std::span(heights_).subspan(y * width, width),
+    const std::size_t hints = hint_count(width) + 1;
+    std::vector<float> densities(width);
+    for (std::size_t y = 0; y < means.size(); ++y) {
+        means[y] = static_cast<float>(build_row(heights.subspan(y * width, width), densities,
                                                 std::span(cdf_).subspan(y * (width + 1), width + 1)));
+        build_hints(row_cdf(static_cast<int>(y)), std::span(hints_).subspan(y * hints, hints));
+    }
     rows_ = PiecewiseConstant1D(means);
 }
 
-std::span<const float> PiecewiseConstant2D::row_heights(int y) const {
-    const auto width = static_cast<std::size_t>(nx_);
-    return std::span(heights_).subspan(static_cast<std::size_t>(y) * width, width);
-}
 std::span<const float> PiecewiseConstant2D::row_cdf(int y) const {
     const auto width = static_cast<std::size_t>(nx_) + 1;
     return std::span(cdf_).subspan(static_cast<std::size_t>(y) * width, width);
@@ -104,9 +135,11 @@ std::span<const float> PiecewiseConstant2D::row_cdf(int y) const {
 
 PiecewiseConstant2D::Sample PiecewiseConstant2D::sample(Vec2 u) const {
     auto row = rows_.sample(u.y);
-    CellPlace c = find_cell(row_cdf(row.cell), u.x);
+    const std::size_t hints = hint_count(static_cast<std::size_t>(nx_)) + 1;
+    CellPlace c = find_cell(
+        row_cdf(row.cell), std::span(hints_).subspan(static_cast<std::size_t>(row.cell) * hints, hints), u.x);
     return {{place_in_unit(c, static_cast<std::size_t>(nx_)), row.x},
-            row.pdf * row_heights(row.cell)[c.cell],
+            row.pdf * cell_density(row_cdf(row.cell), c.cell),
             {static_cast<int>(c.cell), row.cell}};
 }
 
@@ -114,7 +147,7 @@ float PiecewiseConstant2D::pdf(Vec2 p) const {
     if (!(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1)) return 0;
     auto y = cell_at(p.y, static_cast<std::size_t>(rows_.size())).cell;
     auto x = cell_at(p.x, static_cast<std::size_t>(nx_)).cell;
-    return rows_.heights_[y] * row_heights(static_cast<int>(y))[x];
+    return rows_.heights_[y] * cell_density(row_cdf(static_cast<int>(y)), x);
 }
 
 Vec2 PiecewiseConstant2D::invert(Vec2 p) const {

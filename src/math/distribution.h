@@ -45,8 +45,9 @@ class PiecewiseConstant1D {
 
     float lo_, hi_;
     float integral_ = 0;
-    std::vector<float> heights_; ///< divided by their mean: densities times (hi - lo)
-    std::vector<float> cdf_;     ///< n + 1 values from 0 to 1
+    std::vector<float> heights_;       ///< divided by their mean: densities times (hi - lo)
+    std::vector<float> cdf_;           ///< n + 1 values from 0 to 1
+    std::vector<std::uint32_t> hints_; ///< where to begin to look for a number's cell
 };
 
 /// A density over [0, 1)^2 that is constant in each of nx x ny equal cells (rows by their sums, then cells
@@ -74,13 +75,12 @@ class PiecewiseConstant2D {
     Vec2i size() const { return {nx_, rows_.size()}; }
 
   private:
-    std::span<const float> row_heights(int y) const;
     std::span<const float> row_cdf(int y) const;
 
     int nx_ = 1;
     PiecewiseConstant1D rows_;
-    std::vector<float> heights_; ///< each row divided by its mean
-    std::vector<float> cdf_;     ///< nx + 1 values a row
+    std::vector<float> cdf_; ///< nx + 1 values a row
+    std::vector<std::uint32_t> hints_;
 };
 
 /// Draws one of n numbered things in proportion to its weight in constant time (Walker 1977, Vose 1991).

@@ -7,7 +7,7 @@ std::optional<Collision> Collisions::next() {
     first_u_.reset();
     const float sigma = sigma_t_[hero_];
     // How much majorant times length there is to the next collision.
-    float left = sigma > 0 ? -std::log1p(-u) / sigma : infinity;
+    float left = sigma > 0 ? -std::log(1 - u) / sigma : infinity;
     depth_ = 0;
     for (;;) {
         if (segment_.density > 0) {

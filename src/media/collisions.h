@@ -22,11 +22,13 @@ struct Collision {
 
 class Collisions {
   public:
-    /// hero: the lane whose majorant places the collisions. The ray is in world space, up to its tmax; u in
-    /// [0, 1) places the first collision, the generator the others. The medium must outlive this.
-    Collisions(const Medium& medium, const Ray& ray, const Wavelengths& lambda, int hero, float u, Rng rng)
+    /// colors: the medium's at these wavelengths. hero: the lane whose majorant places the collisions. The
+    /// ray is in world space, up to its tmax; u in [0, 1) places the first collision, the generator the
+    /// others. The medium must outlive this.
+    Collisions(const Medium& medium, const Ray& ray, const Wavelengths& lambda, const MediumColors& colors,
+               int hero, float u, Rng rng)
         : medium_(medium), lambda_(lambda), ray_(medium.to_medium(ray)), walk_(medium.majorants(), ray_),
-          colors_(medium.colors(lambda)), sigma_t_(colors_.sigma_t()), hero_(hero), first_u_(u), rng_(rng),
+          colors_(colors), sigma_t_(colors_.sigma_t()), hero_(hero), first_u_(u), rng_(rng),
           length_of_d_(length(ray.d)), is_grey_(sigma_t_ == Spectrum(sigma_t_[hero])) {}
 
     /// The next collision; nullopt when the ray has reached its end.

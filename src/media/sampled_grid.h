@@ -32,6 +32,15 @@ class SampledGrid {
         if (lo.x >= size_.x || lo.y >= size_.y || lo.z >= size_.z) return V{};
         const Vec3 f{at.x - static_cast<float>(lo.x), at.y - static_cast<float>(lo.y),
                      at.z - static_cast<float>(lo.z)};
+        if (lo.x >= 0 && lo.y >= 0 && lo.z >= 0 && lo.x + 1 < size_.x && lo.y + 1 < size_.y &&
+            lo.z + 1 < size_.z) {
+            const auto row = static_cast<std::size_t>(size_.x),
+                       layer = row * static_cast<std::size_t>(size_.y);
+            const T* v = values_.data() + index(lo);
+            auto along_x = [&](std::size_t i) { return convert(v[i]) * (1 - f.x) + convert(v[i + 1]) * f.x; };
+            auto on_plane = [&](std::size_t i) { return along_x(i) * (1 - f.y) + along_x(i + row) * f.y; };
+            return V(on_plane(0) * (1 - f.z) + on_plane(layer) * f.z);
+        }
         auto sample = [&](int x, int y, int z) {
             const Vec3i p{lo.x + x, lo.y + y, lo.z + z};
             const bool is_inside =
@@ -40,7 +49,7 @@ class SampledGrid {
         };
         auto along_x = [&](int y, int z) { return sample(0, y, z) * (1 - f.x) + sample(1, y, z) * f.x; };
         auto on_plane = [&](int z) { return along_x(0, z) * (1 - f.y) + along_x(1, z) * f.y; };
-        return on_plane(0) * (1 - f.z) + on_plane(1) * f.z;
+        return V(on_plane(0) * (1 - f.z) + on_plane(1) * f.z);
     }
     T lookup(Vec3 place) const {
         return lookup(place, [](const T& v) { return v; });
@@ -63,7 +72,11 @@ class SampledGrid {
     }
 
   private:
-    static int floor_of(float v) { return static_cast<int>(std::floor(v)); }
+    // Without a call, which std::floor is where the processor's instruction may not be there.
+    static int floor_of(float v) {
+        const int towards_zero = static_cast<int>(v);
+        return towards_zero - (v < static_cast<float>(towards_zero) ? 1 : 0);
+    }
     Vec3 scaled(Vec3 place) const {
         return {place.x * static_cast<float>(size_.x) - 0.5f, place.y * static_cast<float>(size_.y) - 0.5f,
                 place.z * static_cast<float>(size_.z) - 0.5f};

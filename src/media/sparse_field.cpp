@@ -11,7 +11,11 @@ constexpr int bits = 3; // of an index in a brick
 static_assert(GridBrick::size == 1 << bits);
 
 Vec3i floor_of(Vec3 p) {
-    auto whole = [](float v) { return static_cast<int>(std::floor(v)); };
+    // Without a call, which std::floor is where the processor's instruction may not be there.
+    auto whole = [](float v) {
+        const int towards_zero = static_cast<int>(v);
+        return towards_zero - (v < static_cast<float>(towards_zero) ? 1 : 0);
+    };
     return {whole(p.x), whole(p.y), whole(p.z)};
 }
 
@@ -81,9 +85,9 @@ float SparseField::lookup(Vec3 p) const {
             corner[static_cast<std::size_t>(i)] =
                 sample({lo.x + (i & 1), lo.y + (i >> 1 & 1), lo.z + (i >> 2)});
     }
-    auto along_x = [&](std::size_t i) { return std::lerp(corner[i], corner[i + 1], f.x); };
-    auto on_plane = [&](std::size_t i) { return std::lerp(along_x(i), along_x(i + 2), f.y); };
-    return std::lerp(on_plane(0), on_plane(4), f.z);
+    auto along_x = [&](std::size_t i) { return lerp(f.x, corner[i], corner[i + 1]); };
+    auto on_plane = [&](std::size_t i) { return lerp(f.y, along_x(i), along_x(i + 2)); };
+    return lerp(f.z, on_plane(0), on_plane(4));
 }
 
 float SparseField::largest(const Bounds3& box) const {

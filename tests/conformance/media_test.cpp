@@ -83,7 +83,7 @@ TEST(Media, CollisionsFollowTheTransmittance) {
             constexpr int rays = 4000;
             int through = 0;
             for (int i = 0; i < rays; ++i) {
-                Collisions collisions(medium, ray, lambda, hero, rng.uniform(),
+                Collisions collisions(medium, ray, lambda, colors, hero, rng.uniform(),
                                       Rng(static_cast<std::uint64_t>(i), 7));
                 bool is_stopped = false;
                 while (const auto c = collisions.next()) {
