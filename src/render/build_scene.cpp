@@ -35,15 +35,16 @@ class SceneBuilder {
   private:
     void build_lights() {
         for (const LightNode& node : description_.lights) {
+            if (node.world_from_light.is_animated())
+                context_.messages.add_warning(node.node.place,
+                                              "lights do not move (nor do they in pbrt-v4): this one "
+                                              "stays where it is at the start of the motion");
             context_.world_from_node = placement(node.world_from_light, node.node.place);
             if (auto light = light_kinds().make(node.node, context_, "")) lights_.push_back(std::move(light));
         }
     }
 
     Transform placement(const Motion& motion, const Place& place) {
-        if (motion.is_animated())
-            context_.messages.add_unsupported(place, "lights that move are not supported yet",
-                                              "the place at the start of the motion");
         if (!motion.start.inverse())
             context_.messages.add_error(place, "the transformation here is not invertible");
         return Transform(motion.start);
@@ -113,7 +114,13 @@ class SceneBuilder {
         std::vector<std::pair<Motion, ObjectNode>> moving;
         bool follows = false; // the shape before moves, too
         for (ShapeNode& shape : node.shapes) {
-            const Motion motion = std::exchange(shape.world_from_object, {});
+            Motion motion = std::exchange(shape.world_from_object, {});
+            if (motion.is_animated() && shape.area_light >= 0) {
+                context_.messages.add_unsupported(
+                    shape.node.place, "area lights that move are not supported (nor are they in pbrt-v4)",
+                    "the place at the start of the motion");
+                motion.end = motion.start;
+            }
             if (!motion.is_animated()) {
                 shape.world_from_object = motion;
                 still.push_back(std::move(shape));
@@ -130,12 +137,6 @@ class SceneBuilder {
     }
 
     PlacedObject moving_instance(const Motion& motion, ObjectNode& inner) {
-        for (ShapeNode& shape : inner.shapes) {
-            if (shape.area_light < 0) continue;
-            context_.messages.add_unsupported(shape.node.place, "area lights that move are not supported yet",
-                                              "the shape, which is dark");
-            shape.area_light = -1;
-        }
         inner.place = inner.shapes.front().node.place;
         PlacedObject placed;
         moving_.push_back(make_object(inner));

@@ -125,11 +125,44 @@ TEST(Motion, SaysWhatCannotMove) {
                 HasSubstr("both must mirror, or neither"));
     EXPECT_THAT(error_of(scene_of({between("", "Scale -1 1 1"), "", ""})),
                 HasSubstr("both must mirror, or neither"));
-    EXPECT_THAT(error_of("WorldBegin\n" + between("", "Translate 1 0 0") + "LightSource \"point\"\n"),
-                HasSubstr("lights that move are not supported"));
     EXPECT_THAT(error_of("WorldBegin\nAreaLightSource \"diffuse\"\n" + between("", "Translate 1 0 0") +
                          "Shape \"sphere\"\n"),
                 HasSubstr("area lights that move are not supported"));
+}
+
+/// A ball and a light; what is told of the scene comes out in warnings.
+Image lit_picture(const std::string& light, std::string& warnings) {
+    const std::string text = "Film \"rgb\" \"integer xresolution\" 12 \"integer yresolution\" 8\n"
+                             "Camera \"perspective\"\nWorldBegin\n" +
+                             light + "\nAttributeBegin\nTranslate 0 0 5\nShape \"sphere\"\nAttributeEnd\n";
+    RenderSettings settings;
+    settings.spp = 4;
+    Messages messages;
+    messages.lenient = true;
+    auto world = build_world(read_pbrt_string(text, ".", messages), settings, messages);
+    for (const Message& m : messages.list()) warnings += m.full_text() + "\n";
+    render(*world, settings, {});
+    return world->film->image();
+}
+
+// As in pbrt-v4, which errs where an area light moves, and is lenient here, too.
+TEST(Motion, LightsStayWhereTheyAreAtTheStart) {
+    for (const std::string light : {"LightSource \"point\" \"rgb I\" [ 9 9 9 ]",
+                                    "AreaLightSource \"diffuse\" \"rgb L\" [ 9 9 9 ]\nShape \"sphere\""}) {
+        SCOPED_TRACE(light);
+        std::string still_warnings, moving_warnings;
+        const Image still =
+            lit_picture("AttributeBegin\nTranslate 1 2 1\n" + light + "\nAttributeEnd", still_warnings);
+        const Image moving = lit_picture("AttributeBegin\n" + between("Translate 1 2 1", "Translate -3 2 1") +
+                                             light + "\nAttributeEnd",
+                                         moving_warnings);
+        EXPECT_EQ(still_warnings, "");
+        EXPECT_THAT(moving_warnings, HasSubstr("start of the motion"));
+        EXPECT_THAT(moving_warnings, ::testing::ContainsRegex("^[^\n]*:[0-9]+:[0-9]+: "));
+        EXPECT_EQ(still.values().size(), moving.values().size());
+        EXPECT_TRUE(std::equal(still.values().begin(), still.values().end(), moving.values().begin()));
+        EXPECT_GT(testing::mean_of(still, 1), 0);
+    }
 }
 
 } // namespace
