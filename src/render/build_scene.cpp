@@ -7,6 +7,7 @@
 
 #include "base/threads.h"
 #include "lights/area_light.h"
+#include "shapes/triangle_pair.h"
 
 namespace alhazen {
 
@@ -203,9 +204,16 @@ class SceneBuilder {
         }
         auto pattern = area_light_kinds().make(light_node, context_, "");
         if (!pattern) return;
-        for (std::uint32_t i = 0; i < placed.shape->primitive_count(); ++i) {
-            auto light = pattern->attach(*placed.shape, i);
-            placed.lights.push_back(light.get());
+        // Where each primitive has a flux of its own, it is a light of its own.
+        const bool may_join = !light_node.find("power");
+        const std::uint32_t count = placed.shape->primitive_count();
+        while (placed.lights.size() < count) {
+            const auto i = static_cast<std::uint32_t>(placed.lights.size());
+            const TriangleMesh* mesh = may_join ? placed.shape->triangles() : nullptr;
+            std::unique_ptr<TrianglePair> pair = mesh ? TrianglePair::make(*mesh, i) : nullptr;
+            auto light = pair ? pattern->attach(*pair, 0) : pattern->attach(*placed.shape, i);
+            placed.lights.insert(placed.lights.end(), pair ? 2 : 1, light.get());
+            if (pair) placed.joined.push_back(std::move(pair));
             if (light) lights_.push_back(std::move(light));
         }
     }

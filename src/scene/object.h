@@ -21,7 +21,9 @@ class Object;
 struct PlacedShape {
     std::unique_ptr<Shape> shape;
     const Material* material = nullptr;
-    std::vector<const Light*> lights; ///< one a primitive, or none
+    std::vector<const Light*> lights; ///< of each primitive, or none
+    /// What lights of several primitives are attached to.
+    std::vector<std::unique_ptr<const Shape>> joined;
     MediumInterface media;
 };
 

@@ -2,6 +2,15 @@
 
 namespace alhazen {
 
+namespace {
+
+// Solid angles (steradians) between which triangles are sampled by solid angle: smaller ones lose digits,
+// larger ones are left to BSDF sampling (Pharr, Jakob and Humphreys 2023, section 6.5.4).
+constexpr float least_solid_angle = 3e-4f;
+constexpr float largest_solid_angle = 6.22f;
+
+} // namespace
+
 SphericalTriangle::SphericalTriangle(Vec3 pa, Vec3 pb, Vec3 pc, Vec3 eye) {
     const Vec3 a = pa - eye, b = pb - eye, c = pc - eye;
     inverse_distance_ = {1 / length(a), 1 / length(b), 1 / length(c)};
@@ -32,6 +41,11 @@ Vec2 SphericalTriangle::sample(Vec2 u) const {
     const float c = std::max(0.0f, w_d * d_c) * inverse_distance_.z;
     const float scale = 1 / (a + b + c);
     return {std::min(b * scale, 1.0f), std::min(c * scale, 1 - std::min(b * scale, 1.0f))};
+}
+
+float sampled_solid_angle(const SphericalTriangle& seen) {
+    float solid_angle = seen.solid_angle();
+    return solid_angle >= least_solid_angle && solid_angle <= largest_solid_angle ? solid_angle : 0;
 }
 
 } // namespace alhazen

@@ -26,4 +26,7 @@ class SphericalTriangle {
     float solid_angle_;
 };
 
+/// The solid angle by which lights sample the triangle; 0 where they do better by its area.
+float sampled_solid_angle(const SphericalTriangle& seen);
+
 } // namespace alhazen

@@ -9,11 +9,6 @@ namespace alhazen {
 
 namespace {
 
-// Solid angles (steradians) between which triangles are sampled by solid angle: smaller ones lose digits,
-// larger ones are left to BSDF sampling (Pharr, Jakob and Humphreys 2023, section 6.5.4).
-constexpr float least_solid_angle = 3e-4f;
-constexpr float largest_solid_angle = 6.22f;
-
 template <class V>
 V weigh(const std::vector<V>& values, const int* corners, Vec3d b) {
     auto at = [&](int i) { return values[static_cast<std::size_t>(corners[i])]; };
@@ -29,12 +24,6 @@ Vec3d weigh_exactly(const std::vector<Vec3>& values, const int* corners, Vec3d b
 Vec3d weights_of(const Intersection& met) {
     double u = static_cast<double>(met.u), v = static_cast<double>(met.v);
     return {1 - u - v, u, v};
-}
-
-// The solid angle by which a triangle is sampled; 0 where by its area.
-float sampled_solid_angle(const SphericalTriangle& seen) {
-    float solid_angle = seen.solid_angle();
-    return solid_angle >= least_solid_angle && solid_angle <= largest_solid_angle ? solid_angle : 0;
 }
 
 } // namespace

@@ -49,6 +49,8 @@ struct TriangleMesh : Shape {
     std::optional<ShapeSample> sample_from(std::uint32_t triangle, Vec3 reference, Vec2 u) const final;
     float pdf_from(std::uint32_t triangle, Vec3 reference, const Hit& hit, Vec3 wi) const final;
     NormalCone normals(std::uint32_t triangle) const final;
+    /// The point with these weights of the second and third corner, and the density as given.
+    ShapeSample sample_at(std::uint32_t triangle, Vec2 weights, float pdf) const;
     const TriangleMesh* triangles() const final { return this; }
     std::size_t bytes() const final {
         return array_bytes(P) + array_bytes(N) + array_bytes(S) + array_bytes(uv) + array_bytes(indices);
@@ -66,7 +68,6 @@ struct TriangleMesh : Shape {
     Vec3d face_normal(std::uint32_t triangle) const;
     // Weighted by b; zero when the mesh has no normals.
     Vec3d vertex_normal(std::uint32_t triangle, Vec3d b) const;
-    ShapeSample sample_at(std::uint32_t triangle, Vec2 weights, float pdf) const;
     struct Sides;
     // Without uv and tangents.
     Hit plain_hit(const Ray& ray, std::uint32_t triangle, const Intersection& met, const Sides& sides) const;
