@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "describe/build_apart.h"
+#include "materials/forced_diffuse.h"
 
 namespace alhazen {
 
@@ -60,7 +61,10 @@ class MaterialSet::Builder {
     }
 
     void make(std::size_t i, BuildContext& context) {
-        set_.list_[i] = material_kinds().make(nodes_[i], context, substitute_for(nodes_[i].type));
+        auto material = material_kinds().make(nodes_[i], context, substitute_for(nodes_[i].type));
+        // Mixtures find what they mix matte already.
+        const bool is_wrapped = material && set_.is_diffuse_forced_ && nodes_[i].type != "mix";
+        set_.list_[i] = is_wrapped ? forced_diffuse(std::move(material)) : std::move(material);
         states_[i] = State::done;
     }
 

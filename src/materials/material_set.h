@@ -12,6 +12,8 @@ namespace alhazen {
 
 class MaterialSet {
   public:
+    /// Makes what is built from here on matte (see forced_diffuse()).
+    void force_diffuse() { is_diffuse_forced_ = true; }
     /// Builds every node (context.textures must be set), adding errors to the context. Mixtures may refer to
     /// any named material, also to later ones, but not to themselves through others. Duplicate names are
     /// errors. Sets context.materials to this set, which must then stay where it is.
@@ -30,6 +32,7 @@ class MaterialSet {
     class Builder;
     std::vector<std::unique_ptr<Material>> list_;
     std::unordered_map<std::string, std::size_t> by_name_;
+    bool is_diffuse_forced_ = false;
 };
 
 } // namespace alhazen

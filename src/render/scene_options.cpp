@@ -14,6 +14,7 @@ SceneOptionValues read_scene_options(const SceneDescription& scene, Messages& me
         if (option.type == "disablepixeljitter") values.disablepixeljitter = is_set;
         if (option.type == "disablewavelengthjitter") values.disablewavelengthjitter = is_set;
         if (option.type == "disabletexturefiltering") values.disabletexturefiltering = is_set;
+        if (option.type == "forcediffuse") values.forcediffuse = is_set;
         if (option.type == "displacementedgescale") {
             const auto* number = std::get_if<std::vector<float>>(&value.values);
             if (number && number->size() == 1 && number->front() > 0 && std::isfinite(number->front()))
@@ -21,9 +22,6 @@ SceneOptionValues read_scene_options(const SceneDescription& scene, Messages& me
             else
                 messages.add_error(option.place, "option \"displacementedgescale\" must be above 0");
         }
-        if (option.type == "forcediffuse" && is_set)
-            messages.add_unsupported(option.place, "option \"forcediffuse\" is not supported yet",
-                                     "the materials as they are");
         if (option.type.starts_with("msereference"))
             messages.add_warning(
                 option.place,

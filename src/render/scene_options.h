@@ -12,10 +12,12 @@ struct SceneOptionValues {
         false; ///< rays through the pixels' and the lens' centres, at half of the exposure
     bool disablewavelengthjitter = false; ///< the same four wavelengths for all
     bool disabletexturefiltering = false; ///< textures are looked up at points
+    bool forcediffuse = false;            ///< materials are matte, of the same albedo (forced_diffuse())
     float displacementedgescale = 1;      ///< factor of the edges that displaced meshes are cut into
 };
 
-/// Options that change pictures and are not supported are told.
+/// Adds errors for values that are out of range, and warns of options that should do something and do
+/// nothing.
 SceneOptionValues read_scene_options(const SceneDescription& scene, Messages& messages);
 
 } // namespace alhazen

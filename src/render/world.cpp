@@ -210,6 +210,7 @@ void add_scene(World& world, SceneDescription& description, const CameraNode& ca
     context.textures = &world.textures;
     SdfSet sdfs;
     sdfs.build(description.sdfs, context);
+    if (world.options.forcediffuse) world.materials.force_diffuse();
     world.materials.build(description.materials, context);
     context.materials = &world.materials;
     world.media.build(description.media, context);
