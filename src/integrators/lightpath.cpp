@@ -17,7 +17,8 @@ struct LightPath final : Integrator {
     static void describe(Fields<LightPath>& f) {
         f.about(
             "Follows paths from the lights and joins each of their points with the camera. What is seen in "
-            "mirrors or through glass, and the sky itself, stay black.");
+            "mirrors or through glass, and the sky itself, stay black. As in pbrt-v4 it does not see "
+            "participating media, and a warning says so where there are some; bdpt does.");
         f.field("maxdepth", &LightPath::maxdepth, "bounces of a path at most; 0 shows lights only")
             .in(0, 10000);
     }

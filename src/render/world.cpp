@@ -186,19 +186,22 @@ void add_sampler(World& world, const SceneDescription& description, const Render
 }
 
 // What the scene has and the integrator does not see.
-void warn_of_unseen(const World& world, const Place& place, Messages& messages) {
+void warn_of_unseen(const World& world, const Node& integrator, Messages& messages) {
     if (!world.integrator) return;
     if (world.scene->has_media() && !world.integrator->sees_media())
-        messages.add_warning(place,
-                             "this integrator does not see participating media, of which the scene has "
-                             "some; volpath, bdpt and mlt do");
+        messages.add_warning(
+            integrator.place,
+            fmt::format("integrator \"{}\" does not see participating media, of which the scene has "
+                        "some: they are left out; volpath, simplevolpath, bdpt and mlt see them",
+                        integrator.type));
     bool has_subsurface = false;
     for (std::size_t i = 0; i < world.materials.size(); ++i)
         if (const Material* material = world.materials.at(i)) has_subsurface |= material->has_subsurface();
     if (has_subsurface && !world.integrator->sees_subsurface())
-        messages.add_warning(place, "this integrator does not see light that spreads beneath surfaces, which "
-                                    "material \"subsurface\" has, and takes that for clear matter; path and "
-                                    "volpath do");
+        messages.add_warning(integrator.place,
+                             "this integrator does not see light that spreads beneath surfaces, which "
+                             "material \"subsurface\" has, and takes that for clear matter; path and "
+                             "volpath do");
 }
 
 void add_scene(World& world, SceneDescription& description, const CameraNode& camera,
@@ -226,7 +229,7 @@ void add_scene(World& world, SceneDescription& description, const CameraNode& ca
                                      "what moves is shown as it is when the shutter opens; with another "
                                      "integrator, and without the global "
                                      "distance field, the picture shows the motion");
-    warn_of_unseen(world, description.integrator.place, context.messages);
+    warn_of_unseen(world, description.integrator, context.messages);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 /// Participating media against closed forms, and the two integrators that see them against each other.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/render_scene.h"
@@ -109,6 +110,24 @@ TEST(MediaClosedForm, WhiteFurnace) {
         SCOPED_TRACE(medium);
         for (const ColorMode mode : {ColorMode::rgb, ColorMode::spectral})
             expect_means(measure(through_the_box(volpath, 32, medium, white_sky), mode), Vec3(1), 2e-3);
+    }
+}
+
+TEST(MediaUnseen, IntegratorsThatLeaveThemOutSaySo) {
+    const std::string medium = R"("string type" "homogeneous")";
+    for (const std::string name : {"lightpath", "path", "simplepath", "randomwalk", "sppm", "volpath",
+                                   "simplevolpath", "bdpt", "mlt"}) {
+        SCOPED_TRACE(name);
+        Messages messages;
+        const std::string text = through_the_box("\nIntegrator \"" + name + "\"", 1, medium, white_sky);
+        auto world = build_world(read_pbrt_string(text, ".", messages), {}, messages);
+        std::string told;
+        for (const Message& m : messages.list()) told += m.full_text() + "\n";
+        if (world->integrator->sees_media())
+            EXPECT_EQ(told, "");
+        else
+            EXPECT_THAT(told, ::testing::HasSubstr(":2:1: warning: integrator \"" + name +
+                                                   "\" does not see participating media"));
     }
 }
 
