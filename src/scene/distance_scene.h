@@ -23,7 +23,7 @@ class DistanceScene {
     bool visible(const Ray& ray) const;
 
     std::size_t bytes() const {
-        return distances_.size() * sizeof(float) + nearest_.size() * sizeof(std::uint32_t);
+        return distances_.size() + nearest_.size() * sizeof(std::uint32_t) + planes_.size() * sizeof(Plane);
     }
 
   private:
@@ -35,11 +35,11 @@ class DistanceScene {
 
     struct Collector;
     void sample();
+    /// Samples stand in cubes of 4 x 4 x 4, whose distances are one line of the cache.
     std::size_t index(Vec3i p) const {
-        return static_cast<std::size_t>(p.x) +
-               static_cast<std::size_t>(n_.x) *
-                   (static_cast<std::size_t>(p.y) +
-                    static_cast<std::size_t>(n_.y) * static_cast<std::size_t>(p.z));
+        const int cube = (p.x >> 2) + cubes_.x * ((p.y >> 2) + cubes_.y * (p.z >> 2));
+        return static_cast<std::size_t>(cube) * 64 +
+               static_cast<std::size_t>((p.x & 3) + 4 * (p.y & 3) + 16 * (p.z & 3));
     }
     /// A triangle that is near a point.
     struct Near {
@@ -48,9 +48,28 @@ class DistanceScene {
         TrianglePoint at;
     };
     Near nearest_to(Vec3d p) const;
-    /// Number of the sample nearest to a point of the grid, and how far away it is, in cells.
-    std::size_t nearest_sample(Vec3d grid_point, double& away) const;
-    double distance_of_triangle(Vec3d grid_point, std::size_t sample) const; ///< in cells
+    /// A triangle as the march first asks it; all in cells.
+    struct Plane {
+        Vec3 n; ///< unit; zero for triangles without area
+        float c = 0;
+        float slack = 0; ///< what passes the plane within this of the triangle meets it
+    };
+    Plane plane_of(const Corners& triangle) const;
+    float distance_to(std::uint32_t triangle, Vec3 grid_point) const; ///< in cells
+    /// Of a line: q + d at for from < at < to, in cells.
+    struct Stretch {
+        Vec3 q, d;
+        float from, to;
+    };
+    static bool is_within(float at, const Stretch& stretch) { return at > stretch.from && at < stretch.to; }
+    /// Where the line crosses the triangle's plane.
+    float crossing(std::uint32_t triangle, const Stretch& stretch) const;
+    /// The same, if it is in the stretch and close to the triangle.
+    std::optional<float> meets(std::uint32_t triangle, const Stretch& stretch) const;
+    /// The first such among the triangles that are nearest to the samples around q.
+    std::optional<float> meets_around(const Stretch& stretch) const;
+    /// Where on its way from s to end a line of unit direction through the grid meets something; in cells.
+    std::optional<float> march(Vec3 o, Vec3 d, float s, float end) const;
     std::optional<double> march(const Ray& ray, double end) const;
     Found found_at(const Ray& ray, double t) const;
 
@@ -59,9 +78,10 @@ class DistanceScene {
     std::vector<Corners> corners_;
     Vec3d lo_;
     double cell_ = 1;
-    Vec3i n_{0, 0, 0};
-    std::vector<float> distances_; ///< in cells
+    Vec3i n_{0, 0, 0}, cubes_{0, 0, 0};
+    std::vector<std::uint8_t> distances_; ///< in eighths of a cell, rounded down
     std::vector<std::uint32_t> nearest_;
+    std::vector<Plane> planes_; ///< of the triangles
 };
 
 } // namespace alhazen

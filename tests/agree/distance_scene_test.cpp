@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/hash.h"
+#include "formats/format.h"
 #include "image/metrics.h"
+#include "math/warp.h"
+#include "scene/distance_scene.h"
 #include "tests/support/render_scene.h"
 
 namespace alhazen::testing {
@@ -73,6 +77,48 @@ TEST(DistanceScenes, LightComesNearTheExactOne) {
         // And it is not the exact one by mistake.
         EXPECT_GT(flip, 0.001);
     }
+}
+
+// A closed room with a finely divided ball in it, most of whose triangles no sample is nearest to. From
+// within the room every ray meets something, and mostly what it meets exactly.
+TEST(DistanceScenes, FewRaysLeaveAClosedRoom) {
+    constexpr int around = 160, rings = 80, cells = 48;
+    std::string points, indices;
+    for (int j = 0; j <= rings; ++j)
+        for (int i = 0; i <= around; ++i) {
+            const float a = 2 * pi * static_cast<float>(i) / around, b = pi * static_cast<float>(j) / rings;
+            for (float x : {std::cos(a) * std::sin(b), std::cos(b), std::sin(a) * std::sin(b)})
+                points += std::to_string(0.5f * x) + " ";
+            if (i == around || j == rings) continue;
+            const int k = j * (around + 1) + i;
+            for (int corner : {k, k + 1, k + around + 2, k, k + around + 2, k + around + 1})
+                indices += std::to_string(corner) + " ";
+        }
+    const std::string text = "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [ " + points +
+                             " ] \"integer indices\" [ " + indices +
+                             R"(]
+Shape "trianglemesh" "point3 P" [ -2 -1 -1  2 -1 -1  2 1 -1  -2 1 -1  -2 -1 1  2 -1 1  2 1 1  -2 1 1 ]
+    "integer indices" [ 0 1 2 0 2 3  4 6 5 4 7 6  0 5 1 0 4 5  2 7 3 2 6 7  0 3 7 0 7 4  1 6 2 1 5 6 ])";
+    Messages messages;
+    auto world = build_world(read_pbrt_string(text, ".", messages), {}, messages);
+    const DistanceScene coarse(world->scene->root(), cells);
+    const float cell = 4.0f / cells;
+    Rng rng(3);
+    int rays = 0, lost = 0, same = 0;
+    while (rays < 20000) {
+        auto u = [&] { return rng.uniform() * 2 - 1; };
+        const Vec3 o{1.9f * u(), 0.95f * u(), 0.95f * u()};
+        if (length(o) < 0.55f) continue;
+        const Ray ray{o, sample_sphere({rng.uniform(), rng.uniform()})};
+        ++rays;
+        const auto meets = world->scene->closest(ray), met = coarse.closest(ray);
+        ASSERT_TRUE(meets);
+        lost += !met;
+        same += met && length(met->p - meets->p) < 1.5f * cell;
+    }
+    EXPECT_LT(lost, 0.006 * rays);
+    EXPECT_GT(same, 0.99 * rays);
+    RecordProperty("elsewhere", rays - same);
 }
 
 TEST(DistanceScenes, ThreadsDoNotChangeABit) {
