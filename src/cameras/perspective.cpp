@@ -31,7 +31,7 @@ class PerspectiveCamera final : public FlatCamera {
         const double angle = halffov ? 2 * static_cast<double>(*halffov) : static_cast<double>(fov);
         if (angle >= 180) {
             std::string_view given = halffov ? "halffov" : "fov";
-            context.messages.add_error(camera_place(node, given),
+            context.messages.add_error(node.place_of(given),
                                        "parameter \"" + std::string(given) + "\" is " +
                                            number_text(halffov ? 90 : 180) +
                                            "; it must be less, since a flat picture cannot show half of all "

@@ -66,8 +66,7 @@ class RealisticCamera final : public Camera {
         const std::string problem = lens_.focus(static_cast<double>(focusdistance));
         if (!problem.empty()) {
             const bool is_distance = lens_.thick_lens().focal_length > 0;
-            context.messages.add_error(camera_place(node, is_distance ? "focusdistance" : "lensfile"),
-                                       problem);
+            context.messages.add_error(node.place_of(is_distance ? "focusdistance" : "lensfile"), problem);
             return;
         }
         // A mask lets light through within a circle around all of it, for every direction on the film.
@@ -99,7 +98,7 @@ class RealisticCamera final : public Camera {
 
   private:
     bool read_lens(const Node& node, BuildContext& context) {
-        const Place place = camera_place(node, "lensfile");
+        const Place place = node.place_of("lensfile");
         try {
             lens_ = LensSystem(parse_lens(read_file(context.resolve(lensfile), std::size_t{1} << 20)));
         } catch (const std::runtime_error& e) {
@@ -118,7 +117,7 @@ class RealisticCamera final : public Camera {
         const double wanted = static_cast<double>(aperturediameter.value_or(1)) * 0.5e-3;
         if (wanted > stop->opening * (1 + 1e-6))
             context.messages.add_warning(
-                camera_place(node, "aperturediameter"),
+                node.place_of("aperturediameter"),
                 fmt::format("the aperture's diameter cannot be {} mm; the lens opens to {} mm", wanted * 2e3,
                             stop->opening * 2e3));
         lens_.set_stop(std::min(wanted, stop->opening));
@@ -133,7 +132,7 @@ class RealisticCamera final : public Camera {
             mask_ = ApertureMask(read_image(context.resolve(aperture)));
         } catch (const std::runtime_error& e) {
             context.messages.add_error(
-                camera_place(node, "aperture"),
+                node.place_of("aperture"),
                 fmt::format(
                     "aperture \"{}\" is not circular, gaussian, square, pentagon or star, nor an image: {}",
                     aperture, e.what()));

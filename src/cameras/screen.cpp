@@ -2,14 +2,9 @@
 
 namespace alhazen {
 
-Place camera_place(const Node& node, std::string_view parameter) {
-    const Parameter* p = node.find(parameter);
-    return p ? p->place : node.place;
-}
-
 void check_shutter(Camera& camera, const Node& node, BuildContext& context) {
     if (camera.shutterclose >= camera.shutteropen) return;
-    context.messages.add_warning(camera_place(node, "shutterclose"),
+    context.messages.add_warning(node.place_of("shutterclose"),
                                  "the shutter closes before it opens; the two times are exchanged");
     std::swap(camera.shutteropen, camera.shutterclose);
 }
@@ -23,7 +18,7 @@ bool FlatCamera::finish_flat(const Node& node, BuildContext& context) {
     Vec2d lo = aspect > 1 ? Vec2d(-aspect, -1) : Vec2d(-1, -1 / aspect);
     Vec2d hi = -lo;
     if (!screenwindow.empty()) {
-        Place place = camera_place(node, "screenwindow");
+        Place place = node.place_of("screenwindow");
         if (screenwindow.size() != 4) {
             context.messages.add_error(place, "parameter \"screenwindow\" has " +
                                                   std::to_string(screenwindow.size()) +

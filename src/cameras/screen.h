@@ -10,9 +10,6 @@
 
 namespace alhazen {
 
-/// Where a parameter stands, or its node when the parameter is not given.
-Place camera_place(const Node& node, std::string_view parameter);
-
 /// Swaps a shutter that closes before it opens, with a warning.
 void check_shutter(Camera& camera, const Node& node, BuildContext& context);
 

@@ -8,6 +8,11 @@ const Parameter* Node::find(std::string_view parameter) const {
     return nullptr;
 }
 
+const Place& Node::place_of(std::string_view parameter) const {
+    const Parameter* p = find(parameter);
+    return p ? p->place : place;
+}
+
 void Node::set(Parameter parameter) {
     for (Parameter& p : parameters)
         if (p.name == parameter.name) {

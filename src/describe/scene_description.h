@@ -20,6 +20,8 @@ struct Node {
     Place place;
 
     const Parameter* find(std::string_view parameter) const;
+    /// Where the parameter stands, or the node if it was not given: for messages.
+    const Place& place_of(std::string_view parameter) const;
     /// Replaces the parameter of that name, or adds it.
     void set(Parameter parameter);
 };

@@ -7,21 +7,12 @@
 
 namespace alhazen {
 
-namespace {
-
-Place place_of(const Node& node, std::string_view parameter) {
-    const Parameter* p = node.find(parameter);
-    return p ? p->place : node.place;
-}
-
-} // namespace
-
 bool PictureFilm::check_counts(const Node& node, BuildContext& context) const {
     auto check = [&](std::string_view name, std::size_t count) {
         if (count == 0 || count == 4) return true;
-        context.messages.add_error(place_of(node, name), "parameter \"" + std::string(name) + "\" has " +
-                                                             std::to_string(count) +
-                                                             " values, but must have 4");
+        context.messages.add_error(node.place_of(name), "parameter \"" + std::string(name) + "\" has " +
+                                                            std::to_string(count) +
+                                                            " values, but must have 4");
         return false;
     };
     return check("cropwindow", cropwindow.size()) && check("pixelbounds", pixelbounds.size());
@@ -51,14 +42,13 @@ void PictureFilm::finish(const Node& node, BuildContext& context) {
     pixels_ = declared_pixels();
     std::string_view crop = !cropwindow.empty() ? "cropwindow" : "pixelbounds";
     if (!cropwindow.empty() && !pixelbounds.empty())
-        context.messages.add_warning(place_of(node, "pixelbounds"),
+        context.messages.add_warning(node.place_of("pixelbounds"),
                                      "pixelbounds has no effect, since cropwindow is given too");
     else if (!pixelbounds.empty() &&
              !(pixels_ == Rect2i{{pixelbounds[0], pixelbounds[2]}, {pixelbounds[1], pixelbounds[3]}}))
-        context.messages.add_warning(place_of(node, crop),
-                                     "pixelbounds reach beyond the picture and are cut");
+        context.messages.add_warning(node.place_of(crop), "pixelbounds reach beyond the picture and are cut");
     if (pixels_.empty()) {
-        context.messages.add_error(place_of(node, crop),
+        context.messages.add_error(node.place_of(crop),
                                    "the part of the picture to render holds no pixels; \"" +
                                        std::string(crop) + "\" must be x from, x to, y from, y to");
         return;
@@ -66,7 +56,7 @@ void PictureFilm::finish(const Node& node, BuildContext& context) {
     try {
         check_image_size(pixels_.width(), pixels_.height(), channels());
     } catch (const std::runtime_error& e) {
-        context.messages.add_error(place_of(node, "xresolution"), e.what());
+        context.messages.add_error(node.place_of("xresolution"), e.what());
         return;
     }
     // A colour space in effect at the film marks all of its parameters; those added in code stay at the
@@ -78,7 +68,7 @@ void PictureFilm::finish(const Node& node, BuildContext& context) {
     std::string error;
     auto found = Sensor::find({name, context.exposure_time, iso, whitebalance}, *space_, error);
     if (!found) {
-        context.messages.add_error(place_of(node, "sensor"), error);
+        context.messages.add_error(node.place_of("sensor"), error);
         return;
     }
     sensor_ = *found;

@@ -38,8 +38,7 @@ struct SpectralFilm final : PictureFilm {
     }
     void finish(const Node& node, BuildContext& context) {
         PictureFilm::finish(node, context);
-        const Parameter* given = node.find("lambdamin") ? node.find("lambdamin") : node.find("lambdamax");
-        const Place& place = given ? given->place : node.place;
+        const Place& place = node.place_of(node.find("lambdamin") ? "lambdamin" : "lambdamax");
         if (!(lambdamin < lambdamax))
             context.messages.add_error(place, fmt::format("lambdamin ({} nm) must be below lambdamax ({} nm)",
                                                           lambdamin, lambdamax));

@@ -91,10 +91,9 @@ struct Raster final : Integrator {
 
     void finish(const Node& node, BuildContext& context) {
         if (Rasterizer::is_sample_count(samples)) return;
-        const Parameter* p = node.find("samples");
-        context.messages.add_error(p ? p->place : node.place, "parameter \"samples\" is " +
-                                                                  std::to_string(samples) +
-                                                                  ", but must be 1, 4, 8 or 16");
+        context.messages.add_error(node.place_of("samples"), "parameter \"samples\" is " +
+                                                                 std::to_string(samples) +
+                                                                 ", but must be 1, 4, 8 or 16");
     }
 
     bool works_in_rgb() const override { return true; }

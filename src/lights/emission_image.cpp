@@ -74,8 +74,7 @@ Vec2i EmissionImage::nearest(Vec2 uv) const {
 
 std::optional<Image> load_emission_image(const Node& node, const std::string& filename,
                                          std::string_view owner, BuildContext& context) {
-    const Parameter* parameter = node.find("filename");
-    const Place& place = parameter ? parameter->place : node.place;
+    const Place& place = node.place_of("filename");
     try {
         Image image = read_image(context.resolve(filename));
         std::size_t bad = count_non_finite(image);

@@ -134,12 +134,11 @@ struct Measured final : Material {
         f.example("brushed", {make_string("filename", "measured/brushed.bsdf")});
     }
     void finish(const Node& node, BuildContext& context) {
-        const Parameter* parameter = node.find("filename");
         try {
             const TensorFile file(read_file(context.resolve(filename)));
             data = std::make_shared<const MeasuredData>(file, context.color_mode);
         } catch (const std::runtime_error& e) {
-            context.messages.add_error(parameter ? parameter->place : node.place,
+            context.messages.add_error(node.place_of("filename"),
                                        fmt::format("measured BSDF file \"{}\": {}", filename, e.what()));
         }
     }

@@ -60,8 +60,7 @@ struct NanoVdb final : Medium, CrossSections, TemperatureFields {
 
   private:
     bool read(const Node& node, BuildContext& context) {
-        const Parameter* parameter = node.find("filename");
-        const Place& place = parameter ? parameter->place : node.place;
+        const Place& place = node.place_of("filename");
         const std::string prefix = fmt::format("grid file \"{}\": ", filename);
         auto fail = [&](std::string_view text) {
             context.messages.add_error(place, prefix + std::string(text));

@@ -62,12 +62,6 @@ struct SdfAccelerator final : Accelerator {
     }
 };
 
-// Where the scene says it: the parameter's place, or the node's.
-const Place& place_of(const Node& node, std::string_view parameter) {
-    const Parameter* p = node.find(parameter);
-    return p ? p->place : node.place;
-}
-
 } // namespace
 
 void Accelerator::choose(const Node& node, BuildContext& context) {
@@ -76,7 +70,7 @@ void Accelerator::choose(const Node& node, BuildContext& context) {
     if (!parsed) {
         bool is_walk = parse_accel(builder, error).has_value();
         parse_accel(builder + "/" + walk, error);
-        context.messages.add_error(place_of(node, is_walk ? "walk" : "builder"), error);
+        context.messages.add_error(node.place_of(is_walk ? "walk" : "builder"), error);
         return;
     }
     choice = *parsed;

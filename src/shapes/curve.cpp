@@ -169,7 +169,7 @@ void Curve::check_normals(const Node& node, BuildContext& context) {
         return;
     }
     const std::size_t needed = segment_count() + 1;
-    const MeshChecks checks{context.messages, given ? given->place : node.place, ""};
+    const MeshChecks checks{context.messages, node.place_of("N"), ""};
     if (N.size() != needed)
         return checks.error(fmt::format(
             "this ribbon of {} segments must have {} normals \"N\", one at each end of each; it has {}",

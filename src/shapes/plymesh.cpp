@@ -154,8 +154,7 @@ std::optional<MeshData> FileMesh::read(const Place& place, const std::string& pr
 }
 
 void FileMesh::finish(const Node& node, BuildContext& context) {
-    const Parameter* parameter = node.find("filename");
-    const Place& place = parameter ? parameter->place : node.place;
+    const Place& place = node.place_of("filename");
     const std::string prefix = fmt::format("mesh file \"{}\": ", filename);
     if (longest_edge_too && node.find("displacement.edgelength"))
         return context.messages.add_error(

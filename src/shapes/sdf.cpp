@@ -29,8 +29,7 @@ struct SdfShape final : Shape {
     void finish(const Node& node, BuildContext& context) {
         placement_.set(node, context);
         if (!field->bounds().is_bounded()) {
-            const Parameter* p = node.find("field");
-            context.messages.add_error(p ? p->place : node.place,
+            context.messages.add_error(node.place_of("field"),
                                        "the sdf does not end; intersect it with a box or a sphere");
             return;
         }

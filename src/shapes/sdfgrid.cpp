@@ -40,8 +40,7 @@ struct SdfGrid final : Shape {
                   {make_string("filename", "volumes/scan.vol"), make_string("normals", "analytic")});
     }
     void finish(const Node& node, BuildContext& context) {
-        const Parameter* parameter = node.find("filename");
-        const Place& place = parameter ? parameter->place : node.place;
+        const Place& place = node.place_of("filename");
         std::string prefix = fmt::format("grid file \"{}\": ", filename);
         if (!context.grid_reader || !*context.grid_reader) {
             context.messages.add_error(place, prefix + "grid files cannot be read here");

@@ -60,12 +60,6 @@ struct ImageMapFields : TextureMapping {
                 maxanisotropy};
     }
 
-    // The parameter's place if it was given.
-    static Place place_of(const Node& node, std::string_view parameter) {
-        const Parameter* p = node.find(parameter);
-        return p ? p->place : node.place;
-    }
-
     // Runs use(source, cache) once everything is known; what it throws is an error of the file.
     template <class Use>
     void read(const Node& node, BuildContext& context, Use use) {
@@ -73,7 +67,7 @@ struct ImageMapFields : TextureMapping {
         auto parsed = Encoding::parse(encoding);
         if (!parsed) {
             context.messages.add_error(
-                place_of(node, "encoding"),
+                node.place_of("encoding"),
                 fmt::format("encoding \"{}\" is not known; it must be \"auto\", \"sRGB\", "
                             "\"linear\" or \"gamma\" and a positive number",
                             encoding));
@@ -88,7 +82,7 @@ struct ImageMapFields : TextureMapping {
             size = {picture->width(), picture->height()};
             use(source, cache);
         } catch (const std::exception& e) {
-            context.messages.add_error(place_of(node, "filename"),
+            context.messages.add_error(node.place_of("filename"),
                                        fmt::format("image \"{}\": {}", source.path.string(), e.what()));
         }
     }
