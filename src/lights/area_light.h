@@ -14,6 +14,8 @@ namespace alhazen {
 struct AreaLight : Light {
     static constexpr std::string_view family_name = "area light";
 
+    /// Whether neighbouring primitives may as well be one light: not where each has a flux of its own.
+    virtual bool may_join() const = 0;
     /// The light that one primitive of the shape becomes; the shape must outlive it. A shape whose alpha is
     /// the constant 0 gives an invisible light: is_delta(), so that it lights the scene through sample()
     /// only.

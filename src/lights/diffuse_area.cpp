@@ -50,6 +50,7 @@ struct DiffuseAreaLight final : AreaLight {
         color_ = calibrated(image_ ? mean_color_ : L.value, s, context.color_mode);
         image_scale_ = image_ ? s * image_->light_scale() : 0.0f;
     }
+    bool may_join() const override { return !is_given(power_target); }
     std::unique_ptr<AreaLight> attach(const Shape& shape, std::uint32_t primitive) const override {
         auto light = std::make_unique<DiffuseAreaLight>(*this);
         light->shape_ = &shape;

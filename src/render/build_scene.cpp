@@ -204,12 +204,10 @@ class SceneBuilder {
         }
         auto pattern = area_light_kinds().make(light_node, context_, "");
         if (!pattern) return;
-        // Where each primitive has a flux of its own, it is a light of its own.
-        const bool may_join = !light_node.find("power");
         const std::uint32_t count = placed.shape->primitive_count();
         while (placed.lights.size() < count) {
             const auto i = static_cast<std::uint32_t>(placed.lights.size());
-            const TriangleMesh* mesh = may_join ? placed.shape->triangles() : nullptr;
+            const TriangleMesh* mesh = pattern->may_join() ? placed.shape->triangles() : nullptr;
             std::unique_ptr<TrianglePair> pair = mesh ? TrianglePair::make(*mesh, i) : nullptr;
             auto light = pair ? pattern->attach(*pair, 0) : pattern->attach(*placed.shape, i);
             placed.lights.insert(placed.lights.end(), pair ? 2 : 1, light.get());

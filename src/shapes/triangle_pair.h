@@ -13,8 +13,7 @@ class TrianglePair final : public Shape {
   public:
     /// Triangles first and first + 1 of the mesh, which must outlive the pair.
     TrianglePair(const TriangleMesh& mesh, std::uint32_t first);
-    /// The same; nullptr where they do not
-    /// share an edge, or do not face the same way.
+    /// The same; nullptr where the two do not share an edge, or do not face the same way.
     static std::unique_ptr<TrianglePair> make(const TriangleMesh& mesh, std::uint32_t first);
 
     Bounds3 bounds(std::uint32_t) const override;
