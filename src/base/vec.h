@@ -152,6 +152,12 @@ inline constexpr float one_minus_epsilon = 0x1.fffffep-1f;
 inline constexpr float sqr(float x) {
     return x * x;
 }
+/// The largest whole number not above v, whose size must be that of an int. std::floor is a call where the
+/// processor's instruction may not be there.
+inline int floor_to_int(float v) {
+    const int towards_zero = static_cast<int>(v);
+    return towards_zero - (v < static_cast<float>(towards_zero) ? 1 : 0);
+}
 /// Square root of x, taking rounding's small negative numbers for zero.
 inline float safe_sqrt(float x) {
     return std::sqrt(std::max(0.0f, x));

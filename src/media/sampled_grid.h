@@ -28,7 +28,7 @@ class SampledGrid {
         using V = decltype(convert(values_[0]));
         const Vec3 at = scaled(place);
         if (!(at.x > -1 && at.y > -1 && at.z > -1)) return V{};
-        const Vec3i lo{floor_of(at.x), floor_of(at.y), floor_of(at.z)};
+        const Vec3i lo{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
         if (lo.x >= size_.x || lo.y >= size_.y || lo.z >= size_.z) return V{};
         const Vec3 f{at.x - static_cast<float>(lo.x), at.y - static_cast<float>(lo.y),
                      at.z - static_cast<float>(lo.z)};
@@ -72,11 +72,6 @@ class SampledGrid {
     }
 
   private:
-    // Without a call, which std::floor is where the processor's instruction may not be there.
-    static int floor_of(float v) {
-        const int towards_zero = static_cast<int>(v);
-        return towards_zero - (v < static_cast<float>(towards_zero) ? 1 : 0);
-    }
     Vec3 scaled(Vec3 place) const {
         return {place.x * static_cast<float>(size_.x) - 0.5f, place.y * static_cast<float>(size_.y) - 0.5f,
                 place.z * static_cast<float>(size_.z) - 0.5f};

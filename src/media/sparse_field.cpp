@@ -11,12 +11,7 @@ constexpr int bits = 3; // of an index in a brick
 static_assert(GridBrick::size == 1 << bits);
 
 Vec3i floor_of(Vec3 p) {
-    // Without a call, which std::floor is where the processor's instruction may not be there.
-    auto whole = [](float v) {
-        const int towards_zero = static_cast<int>(v);
-        return towards_zero - (v < static_cast<float>(towards_zero) ? 1 : 0);
-    };
-    return {whole(p.x), whole(p.y), whole(p.z)};
+    return {floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)};
 }
 
 std::size_t at(const GridBrick& brick, Vec3i p) {
