@@ -3,10 +3,12 @@
 /// A path carries four wavelengths, a quarter of the density's integral apart, and a sensor adds up what each
 /// brings over its density. For which light that sum errs least depends on the density. This one is found so
 /// that for light as scenes have it the four together measure red, green and blue almost without error: what
-/// is minimised is the mean variance of the measurement, relative to its square, over the ColorChecker's 24
-/// swatches under daylight, equal energy, candle-like and fluorescent light. The numbers are committed;
-/// this is run only to change them:
-///     g++ -O2 -std=c++20 -Isrc tools/fit_wavelengths.cpp -o fit && ./fit > src/color/data/visible_density.inl
+/// is minimised is the mean variance of the measurement, relative to the square of its mean, over the
+/// ColorChecker's 24 swatches under daylight, equal energy, incandescent and fluorescent light. The numbers
+/// are committed; this is run only to change them (with another compiler or mathematical library the search
+/// may end at others that are as good):
+///     g++ -O2 -std=c++20 -Isrc tools/fit_wavelengths.cpp -o fit && ./fit >
+///     src/color/data/visible_density.inl
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,12 +58,14 @@ std::vector<Stimulus> stimuli() {
             for (int i = 0; i < count; ++i) {
                 const double lambda = first + i, light_place = static_cast<double>(i) / light_step;
                 const double planck = 1e12 / std::pow(lambda, 5) / (std::exp(1.4388e7 / (lambda * 2856)) - 1);
-                const double powers[] = {at(daylight, 0, 95, light_place), 1, planck, at(fluorescent, 0, 95, light_place)};
+                const double powers[] = {at(daylight, 0, 95, light_place), 1, planck,
+                                         at(fluorescent, 0, 95, light_place)};
                 const double reflected = powers[light] * at(swatches, swatch * swatch_values, swatch_values,
                                                             (lambda - swatch_first) / swatch_step);
                 for (std::size_t c = 0; c < 3; ++c)
                     for (int k = 0; k < 3; ++k)
-                        stimulus[c][static_cast<std::size_t>(i)] += reflected * rgb_of_xyz[c][k] * observer[3 * i + k];
+                        stimulus[c][static_cast<std::size_t>(i)] +=
+                            reflected * rgb_of_xyz[c][k] * observer[3 * i + k];
             }
         }
     return all;
@@ -75,7 +79,8 @@ Error error_of(const Density& density, const std::vector<Stimulus>& all) {
     constexpr int steps = 250; // of a quarter
     Curve p;
     double sum = 0;
-    for (int i = 0; i < count; ++i) sum += p[static_cast<std::size_t>(i)] = at(density, 0, nodes, static_cast<double>(i) / node_step);
+    for (int i = 0; i < count; ++i)
+        sum += p[static_cast<std::size_t>(i)] = at(density, 0, nodes, static_cast<double>(i) / node_step);
     std::vector<std::size_t> drawn;
     double below = 0;
     std::size_t at_nm = 0;
@@ -103,7 +108,8 @@ Error error_of(const Density& density, const std::vector<Stimulus>& all) {
         }
         for (std::size_t c = 0; c < 3; ++c) {
             // What is wrong with a channel of which there is next to nothing does not count.
-            const double shown = std::max(mean[c], 0.3 * grey), all_channels = 3 * static_cast<double>(all.size());
+            const double shown = std::max(mean[c], 0.3 * grey),
+                         all_channels = 3 * static_cast<double>(all.size());
             error.four += (four[c] - mean[c] * mean[c]) / (shown * shown) / all_channels;
             error.one += (one[c] - mean[c] * mean[c]) / (shown * shown) / all_channels;
         }
@@ -130,7 +136,8 @@ Density fitted(const std::vector<Stimulus>& all) {
     const Density lowest = least();
     Density best;
     for (int k = 0; k < nodes; ++k)
-        best[static_cast<std::size_t>(k)] = std::pow(std::cosh(0.0072 * (first + node_step * k - 538)), -2) / 254;
+        best[static_cast<std::size_t>(k)] =
+            std::pow(std::cosh(0.0072 * (first + node_step * k - 538)), -2) / 254;
     double least_cost = cost(best, all);
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
@@ -168,7 +175,8 @@ int main() {
     for (int k = 0; k < nodes; ++k)
         start[static_cast<std::size_t>(k)] = std::pow(std::cosh(0.0072 * (first + node_step * k - 538)), -2);
     const Error before = error_of(start, all);
-    std::fprintf(stderr, "after Pharr et al. 2023: variances %.5f with four, %.3f with one\n", before.four, before.one);
+    std::fprintf(stderr, "after Pharr et al. 2023: variances %.5f with four, %.3f with one\n", before.four,
+                 before.one);
     const Density density = fitted(all);
     std::printf("// Density of wavelengths at 360 to 830 nm by 10 nm, linear between, up to a factor.\n"
                 "// Written by tools/fit_wavelengths.cpp.\n");
