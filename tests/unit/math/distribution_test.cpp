@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/hash.h"
+#include "base/ray.h"
 #include "math/special.h"
 #include "tests/support/density_test.h"
 
@@ -34,6 +36,38 @@ TEST(PiecewiseConstant1D, NeverChoosesAnEmptyCell) {
     const std::array<float, 5> heights{0, 0, 1e-30f, 0, 0};
     PiecewiseConstant1D d(heights);
     for (float u : {0.0f, 0.5f, one_minus_epsilon, 1.0f}) EXPECT_EQ(d.sample(u).cell, 2);
+}
+
+// Where to look is known for parts of [0, 1): the cell is that of a search through all of them.
+TEST(PiecewiseConstant1D, FindsTheCellThatNumbersFallInto) {
+    Rng rng(5);
+    for (const std::size_t n : {1u, 2u, 3u, 5u, 12u, 100u, 1000u}) {
+        // Some without height, some a thousand times as tall as others.
+        std::vector<float> heights(n);
+        for (float& h : heights) h = rng.uniform() < 0.4f ? 0 : std::pow(1000.0f, rng.uniform());
+        heights[n / 2] = 1;
+        const PiecewiseConstant1D d(heights);
+        double sum = 0, so_far = 0;
+        for (const float h : heights) sum += static_cast<double>(h);
+        std::vector<float> ends;
+        for (const float h : heights)
+            ends.push_back(static_cast<float>(so_far += static_cast<double>(h) / sum));
+        std::vector<float> numbers{0, one_minus_epsilon};
+        for (const float end : ends)
+            for (const float u : {next_down(end), end, next_up(end)})
+                if (u >= 0 && u < 1) numbers.push_back(u);
+        for (std::size_t i = 0; i < 4 * n; ++i) {
+            numbers.push_back(static_cast<float>(i) / static_cast<float>(4 * n));
+            numbers.push_back(rng.uniform());
+        }
+        for (const float u : numbers) {
+            // The last is the last that has height: rounding may have left a gap behind it.
+            std::size_t wanted = 0, last = n - 1;
+            while (heights[last] == 0) --last;
+            while (wanted < last && ends[wanted] <= u) ++wanted;
+            EXPECT_EQ(d.sample(u).cell, static_cast<int>(wanted)) << n << " cells, " << u;
+        }
+    }
 }
 
 TEST(PiecewiseConstant1D, AllZeroAndNotFiniteAreSafe) {
