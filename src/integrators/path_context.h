@@ -53,7 +53,8 @@ class PathContext {
         return {};
     }
 
-    /// The medium's colours at the path's wavelengths.
+    /// The medium's colours at the path's wavelengths, which stay what they are (dispersion changes their
+    /// densities only).
     const MediumColors& colors_of(const Medium& medium) {
         if (&medium != colored_) {
             colors_ = medium.colors(lambda);

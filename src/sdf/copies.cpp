@@ -108,10 +108,9 @@ struct MirrorSdf final : SdfOf<MirrorSdf> {
         f.example("pair", {make_string("child", "aside")});
     }
     void finish(const Node& node, BuildContext& context) {
-        const Parameter* p = node.find("axes");
         if (axes.empty() || axes.find_first_not_of("xyz") != std::string::npos)
             return context.messages.add_error(
-                p ? p->place : node.place,
+                node.place_of("axes"),
                 fmt::format("parameter \"axes\" is \"{}\"; expected some of the letters x, y and z", axes));
         for (int i = 0; i < 3; ++i)
             is_folded_[static_cast<std::size_t>(i)] = axes.find("xyz"[i]) != std::string::npos;

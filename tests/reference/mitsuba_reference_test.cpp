@@ -5,16 +5,13 @@
 ///
 /// Left out is what means something else in Mitsuba:
 /// - rough plastic (it has no counterpart), Disney's principled materials, Beckmann's microfacets
-/// (roughdielectric,
-///   textured_roughconductor, homo_roughdielectric_spot and four of the spheres in the grid);
+///   (roughdielectric, textured_roughconductor, homo_roughdielectric_spot, four spheres of the grid);
 /// - what normals of maps and bumps do near the outline of a sphere and, by a percent, elsewhere: Mitsuba
-/// takes light
-///   away where the smooth surface would shade it (Estevez, Lecocq and Stellmach 2019, "A microfacet-based
-///   shadowing function to solve the bump terminator problem"). normalmap_roughconductor, whose normals lean
-///   further, is left out;
+///   takes light away where the smooth surface would shade it (Estevez, Lecocq and Stellmach 2019, "A
+///   microfacet-based shadowing function to solve the bump terminator problem"). normalmap_roughconductor,
+///   whose normals lean further, is left out;
 /// - homo_area_light, homo_emitter_inside_medium, homo_obj_inside_medium, surf_area_light: passing through a
-/// thin
-///   dielectric does not count as a bounce in Mitsuba, and what is inside is of rough plastic;
+///   thin dielectric is no bounce in Mitsuba, and what is inside is of rough plastic;
 /// - hetero_sigmat_albedo multiplies two grids, which are blended each by itself;
 /// - various_emitters: spots that fade linearly with the angle, and spots with textures;
 /// - spectra that are made of coloured media's rgb values: there are several such for a colour.
