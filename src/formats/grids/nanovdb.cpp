@@ -91,9 +91,10 @@ GridData from_nanovdb(const nanovdb::NanoGrid<float>& grid) {
 
 void set_active_range(const nanovdb::NanoGrid<float>& grid, GridData& data) {
     const nanovdb::CoordBBox box = grid.indexBBox();
-    for (int i = 0; i < 3; ++i) {
-        data.lo[i] = std::max(data.lo[i], box.min()[i]);
-        data.hi[i] = std::min(data.hi[i], box.max()[i]);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        const int i = static_cast<int>(axis);
+        data.lo[i] = std::max(data.lo[i], box.min()[axis]);
+        data.hi[i] = std::min(data.hi[i], box.max()[axis]);
         if (data.lo[i] > data.hi[i]) throw std::runtime_error("it holds no values");
     }
 }
