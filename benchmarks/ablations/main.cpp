@@ -32,24 +32,31 @@ Change other_sampler(const std::string& type) {
             }};
 }
 
-Change other_light_sampler(const std::string& name) {
-    return {"lights by " + name, [name](SceneDescription& scene) {
-                Parameter choice;
-                choice.name = "lightsampler";
-                choice.type = ValueType::string;
-                choice.values = std::vector<std::string>{name};
-                // Others choose in one way only.
+/// A parameter of the path tracer.
+Change other_rule(std::string name, Parameter parameter) {
+    return {std::move(name), [parameter = std::move(parameter)](SceneDescription& scene) {
+                // Others have no such parameter.
                 if (scene.integrator.type == "path" || scene.integrator.type == "volpath" ||
                     scene.integrator.type.empty())
-                    scene.integrator.set(choice);
+                    scene.integrator.set(parameter);
             }};
+}
+
+Change other_light_sampler(const std::string& name) {
+    return other_rule("lights by " + name, make_string("lightsampler", name));
+}
+
+Change other_roulette(float threshold) {
+    return other_rule(fmt::format("roulette below {:g}", threshold),
+                      make_float("roulettethreshold", threshold));
 }
 
 /// The first is the default.
 std::vector<Change> changes() {
     return {other_sampler("zsobol"),  other_sampler("independent"), other_sampler("stratified"),
             other_sampler("halton"),  other_sampler("sobol"),       other_sampler("paddedsobol"),
-            other_sampler("pmj02bn"), other_light_sampler("power"), other_light_sampler("uniform")};
+            other_sampler("pmj02bn"), other_light_sampler("power"), other_light_sampler("uniform"),
+            other_roulette(1),        other_roulette(0.06f)};
 }
 
 /// Noise times processor seconds.

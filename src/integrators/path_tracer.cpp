@@ -56,8 +56,8 @@ Task<Spectrum> trace_path(PathRules rules, Ray ray, PathContext& path) {
         if (has(next->lobes, Lobes::transmission)) eta_scale *= sqr(next->eta);
         ray = hit->spawn(frame.to_world(next->wi));
 
-        float survival = (throughput * eta_scale).max();
-        if (survival < 1 && depth > 1) {
+        const float survival = rules.survival((throughput * eta_scale).max(), depth);
+        if (survival < 1) {
             if (path.samples.next1() >= survival) co_return sum;
             throughput /= survival;
         }

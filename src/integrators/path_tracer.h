@@ -10,6 +10,13 @@ namespace alhazen {
 struct PathRules {
     int maxdepth = 5;
     bool regularize = false; ///< widen narrow lobes after the first rough bounce
+    float roulettethreshold = 0.25f;
+
+    /// Russian roulette (Arvo and Kirk 1990): the probability with which a path goes on that has met `depth`
+    /// surfaces and carries so much of their light. What survives is to be divided by it.
+    float survival(float throughput, int depth) const {
+        return depth > 1 && throughput < roulettethreshold ? throughput / roulettethreshold : 1;
+    }
 };
 
 /// An integrator that follows paths by these rules.
@@ -28,6 +35,10 @@ struct PathIntegrator : Integrator, PathRules {
             .in(0, 10000);
         f.field("regularize", &T::regularize,
                 "widen narrow lobes after the first rough bounce: less noise, a little blur");
+        f.field("roulettethreshold", &T::roulettethreshold,
+                "paths that carry less of the light than this, after two bounces, go on by chance only "
+                "(Russian roulette); 1 is what pbrt-v4 does, 0 ends no path early; the mean is the same")
+            .in(0, 1);
         f.field("lightsampler", &T::lightsampler, "how the light to sample is chosen");
     }
 };

@@ -181,13 +181,14 @@ struct VolPath final : PathIntegrator {
         walk.ray = hit.spawn(wi);
     }
 
-    static bool survives(Walk& walk, PathContext& path) {
-        const float survival = walk.weights.throughput() * walk.eta_scale;
-        if (survival < 1 && walk.depth > 1) {
-            if (path.samples.next1() >= survival) return false;
-            walk.weights.scale(1 / survival);
+    bool survives(Walk& walk, PathContext& path) const {
+        const float carried = walk.weights.throughput() * walk.eta_scale;
+        const float chance = survival(carried, walk.depth);
+        if (chance < 1) {
+            if (path.samples.next1() >= chance) return false;
+            walk.weights.scale(1 / chance);
         }
-        return survival > 0;
+        return carried > 0;
     }
 };
 
