@@ -7,57 +7,74 @@ namespace alhazen {
 namespace {
 
 Collisions collisions_of(const Medium& medium, const Ray& ray, int hero, PathContext& path,
-                         MediumNumbers& numbers) {
+                         MediumNumbers& numbers, const ClearCells* clear) {
     const MediumNumbers::Start start = numbers.next();
-    return Collisions(medium, ray, path.lambda, path.colors_of(medium), hero, start.u, Rng(start.key));
+    return Collisions(medium, ray, path.lambda, path.colors_of(medium), hero, start.u, Rng(start.key), clear);
 }
 
-// Through one medium towards a light; where hardly any of it is left, three of four such rays are given up.
-void weaken_by(const Medium& medium, const Ray& ray, LaneWeights& weights, PathContext& path,
-               MediumNumbers& numbers) {
+// Through one medium towards a light; where hardly any of the whole is left, three of four such rays are
+// given up. False when it first has to be known which surface the ray meets.
+bool weaken_by(Collisions& collisions, float whole, LaneWeights& weights) {
     constexpr float hardly_any = 0.05f, given_up = 0.75f;
-    const float whole = weights.shadow_transmittance();
-    Collisions collisions = collisions_of(medium, ray, weights.hero(), path, numbers);
     while (const auto collision = collisions.next()) {
         weights.weaken(*collision);
-        if (weights.is_black()) return;
+        if (weights.is_black()) return true;
         if (weights.shadow_transmittance() >= hardly_any * whole) continue;
-        if (collisions.uniform() < given_up) return weights.block();
+        if (collisions.uniform() < given_up) {
+            weights.block();
+            return true;
+        }
         weights.scale(1 / (1 - given_up));
     }
+    if (collisions.needs_surface()) return false;
     weights.pass(collisions.transmittance());
+    return true;
 }
 
 } // namespace
 
+MediumWalk::MediumWalk(const Medium& medium, const Ray& ray, bool counts_emission, LaneWeights& weights,
+                       PathContext& path, MediumNumbers& numbers, const ClearCells* clear)
+    : ray_(ray), weights_(weights),
+      collisions_(collisions_of(medium, ray, weights.hero(), path, numbers, clear)),
+      emits_(counts_emission && medium.is_emissive()) {}
+
+bool MediumWalk::go_on() {
+    while (const auto collision = collisions_.next())
+        if (collide(*collision)) return true;
+    if (collisions_.needs_surface()) return false;
+    weights_.pass(collisions_.transmittance());
+    return true;
+}
+
+bool MediumWalk::collide(const Collision& collision) {
+    using End = MediumCrossing::End;
+    const int hero = weights_.hero();
+    if (emits_ && !collision.at.sigma_a.is_black()) crossing_.emitted += weights_.emitted(collision);
+    // What the collision was is drawn at the hero's wavelength.
+    const float absorbed = collision.at.sigma_a[hero], scattered = collision.at.sigma_s[hero];
+    const float u = collisions_.uniform() * collision.sigma_maj[hero];
+    if (u < absorbed) {
+        crossing_.end = End::absorbed;
+        return true;
+    }
+    if (u < absorbed + scattered) {
+        crossing_.end = End::scattered;
+        crossing_.p = ray_.at(collision.t);
+        crossing_.wo = normalize(-ray_.d);
+        weights_.collide(collision);
+        return true;
+    }
+    // Rounding may leave nothing of what is neither.
+    if (collision.sigma_n()[hero] > 0) weights_.pass_null(collision);
+    return false;
+}
+
 MediumCrossing cross_medium(const Medium& medium, const Ray& ray, bool counts_emission, LaneWeights& weights,
                             PathContext& path, MediumNumbers& numbers) {
-    using End = MediumCrossing::End;
-    MediumCrossing crossing;
-    const int hero = weights.hero();
-    const bool emits = counts_emission && medium.is_emissive();
-    Collisions collisions = collisions_of(medium, ray, hero, path, numbers);
-    while (const auto collision = collisions.next()) {
-        if (emits && !collision->at.sigma_a.is_black()) crossing.emitted += weights.emitted(*collision);
-        // What the collision was is drawn at the hero's wavelength.
-        const float absorbed = collision->at.sigma_a[hero], scattered = collision->at.sigma_s[hero];
-        const float u = collisions.uniform() * collision->sigma_maj[hero];
-        if (u < absorbed) {
-            crossing.end = End::absorbed;
-            return crossing;
-        }
-        if (u < absorbed + scattered) {
-            crossing.end = End::scattered;
-            crossing.p = ray.at(collision->t);
-            crossing.wo = normalize(-ray.d);
-            weights.collide(*collision);
-            return crossing;
-        }
-        // Rounding may leave nothing of what is neither.
-        if (collision->sigma_n()[hero] > 0) weights.pass_null(*collision);
-    }
-    weights.pass(collisions.transmittance());
-    return crossing;
+    MediumWalk walk(medium, ray, counts_emission, weights, path, numbers, nullptr);
+    walk.go_on();
+    return walk.crossing();
 }
 
 std::optional<DirectLight> propose_light_in_medium(const MediumCrossing& at, const Medium& medium, float time,
@@ -88,16 +105,25 @@ Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weig
     weights.begin_shadow();
     const Vec3 target = ray.o + ray.d;
     for (;;) {
+        std::optional<Collisions> collisions;
+        const float whole = weights.shadow_transmittance();
+        if (medium) {
+            // Without a border in between, on to the light itself.
+            Ray part = ray;
+            part.tmax = 1;
+            collisions.emplace(collisions_of(*medium, part, weights.hero(), path, numbers,
+                                             &path.scene.clear_cells(*medium)));
+            // What the medium alone has decided needs no ray.
+            if (weaken_by(*collisions, whole, weights)) co_return weights;
+        }
         const std::optional<Hit> hit = co_await path.closest(ray);
         if (hit && !hit->material->choose(*hit)->is_interface()) {
             weights.block();
             co_return weights;
         }
-        if (medium) {
-            Ray part = ray;
-            // Without a border in between, on to the light itself.
-            part.tmax = hit ? hit->t : 1;
-            weaken_by(*medium, part, weights, path, numbers);
+        if (collisions) {
+            collisions->meet(hit ? hit->t : 1);
+            weaken_by(*collisions, whole, weights);
         }
         if (!hit || weights.is_black()) co_return weights;
         medium = medium_beyond(*hit, ray.d, medium);

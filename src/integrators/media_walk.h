@@ -6,6 +6,7 @@
 #include "integrators/direct_light.h"
 #include "integrators/lane_weights.h"
 #include "integrators/path_context.h"
+#include "media/collisions.h"
 
 namespace alhazen {
 
@@ -49,6 +50,34 @@ struct MediumCrossing {
     End end = End::passed;
     Spectrum emitted = 0; ///< by the medium on the way, weighed
     Vec3 p, wo;           ///< where it was scattered, and unit vector back along the ray
+};
+
+/// A ray's way through a medium, step by step.
+class MediumWalk {
+  public:
+    /// counts_emission: whether what glows is seen. weights: the path's, which the way changes. clear: where
+    /// no surface can be, when the ray may meet one before its tmax; nullptr when it cannot. What is
+    /// referred to must outlive this.
+    MediumWalk(const Medium& medium, const Ray& ray, bool counts_emission, LaneWeights& weights,
+               PathContext& path, MediumNumbers& numbers, const ClearCells* clear);
+
+    /// Goes on to the end of the way. False when it first has to be known where the ray meets a surface,
+    /// which meet() has to say.
+    bool go_on();
+    /// The nearest surface is at t; infinity for none.
+    void meet(float t) { collisions_.meet(t); }
+    /// How the way ended.
+    const MediumCrossing& crossing() const { return crossing_; }
+
+  private:
+    /// Whether the way ends there.
+    bool collide(const Collision& collision);
+
+    Ray ray_;
+    LaneWeights& weights_;
+    Collisions collisions_;
+    bool emits_;
+    MediumCrossing crossing_;
 };
 
 /// Follows the ray through the medium up to ray.tmax. counts_emission: whether what glows is seen.

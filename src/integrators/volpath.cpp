@@ -57,12 +57,21 @@ struct VolPath final : PathIntegrator {
         for (;;) {
             // What one scattering needed, the next does not.
             path.arena.rewind(mark);
-            std::optional<Hit> hit = co_await path.closest(walk.ray);
-            if (walk.medium) {
-                walk.ray.tmax = hit ? hit->t : infinity;
+            std::optional<Hit> hit;
+            if (!walk.medium) {
+                hit = co_await path.closest(walk.ray);
+            } else {
                 MediumNumbers numbers(path.samples);
-                MediumCrossing crossing =
-                    cross_medium(*walk.medium, walk.ray, walk.depth < maxdepth, walk.weights, path, numbers);
+                MediumWalk through(*walk.medium, walk.ray, walk.depth < maxdepth, walk.weights, path, numbers,
+                                   &path.scene.clear_cells(*walk.medium));
+                // Deep in a medium, most of what happens takes no ray through the scene. The camera's first
+                // counts.
+                if (walk.depth == 0 || !through.go_on()) {
+                    hit = co_await path.closest(walk.ray);
+                    through.meet(hit ? hit->t : infinity);
+                    through.go_on();
+                }
+                const MediumCrossing& crossing = through.crossing();
                 sum += crossing.emitted;
                 if (crossing.end == MediumCrossing::End::absorbed) co_return sum;
                 if (crossing.end == MediumCrossing::End::scattered) {

@@ -55,6 +55,11 @@ MajorantWalk::MajorantWalk(const MajorantGrid& grid, const Ray& ray) : grid_(gri
     }
 }
 
+void MajorantWalk::limit(float tmax) {
+    end_ = std::min(end_, tmax);
+    is_over_ = is_over_ || !(t_ < end_);
+}
+
 std::optional<MajorantSegment> MajorantWalk::next() {
     if (is_over_) return std::nullopt;
     if (grid_.is_everywhere()) {

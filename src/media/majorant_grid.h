@@ -47,6 +47,14 @@ class MajorantWalk {
     /// nullopt behind the last.
     std::optional<MajorantSegment> next();
 
+    /// Whether the ray is in a cell of the grid, and in which one the next segment will be.
+    bool is_in_cell() const { return !is_over_ && !grid_.is_everywhere(); }
+    Vec3i cell() const { return cell_; }
+    /// Where the next segment begins, along the ray; the ray's end when there is none.
+    float begin() const { return is_over_ ? end_ : t_; }
+    /// The ray ends here if it did not end before; not before where the next segment begins.
+    void limit(float tmax);
+
   private:
     const MajorantGrid& grid_;
     float t_ = 0, end_ = 0;

@@ -39,6 +39,11 @@ struct Medium {
     const HenyeyGreenstein& phase() const { return phase_; }
     /// From the world to the medium's own space.
     Ray to_medium(const Ray& ray) const { return world_from_medium_.inverse_ray(ray); }
+    Bounds3 to_medium(const Bounds3& box) const {
+        Bounds3 around;
+        for (int i = 0; i < 8; ++i) around.extend(world_from_medium_.inverse_point(box.corner(i)));
+        return around;
+    }
 
     float scale = 1;
     float g = 0;

@@ -106,6 +106,8 @@ class Object final : public Primitives {
     /// How deep instances are nested to get out of the innermost: 1 without instances.
     std::size_t height() const { return height_; }
 
+    /// Around a primitive or an instance, whether the structure holds it or not.
+    Bounds3 box(std::uint32_t number) const { return box_of(primitives_[number]); }
     std::uint32_t count() const override { return static_cast<std::uint32_t>(primitives_.size()); }
     PrimitiveKind kind(std::uint32_t primitive) const override;
     PrimitiveKinds kinds() const override;

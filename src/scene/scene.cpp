@@ -11,9 +11,26 @@ Scene::Scene(std::vector<std::unique_ptr<Object>> objects, std::vector<std::uniq
         if (light->is_infinite() && !light->is_delta()) infinite_.push_back(light.get());
     }
     for (const auto& object : objects_)
-        for (const PlacedShape& placed : object->shapes())
+        for (const PlacedShape& placed : object->shapes()) {
             has_media_ = has_media_ || placed.media.is_border();
+            add_medium(placed.media.inside);
+            add_medium(placed.media.outside);
+        }
     set_light_chooser("bvh");
+}
+
+void Scene::set_medium_at_camera(const Medium* medium) {
+    medium_at_camera_ = medium;
+    has_media_ = has_media_ || medium;
+    add_medium(medium);
+}
+
+// nullptr is nothing.
+void Scene::add_medium(const Medium* medium) {
+    if (!medium || find_cells(*medium)) return;
+    ClearCells& cells = clear_cells_.emplace_back(*medium);
+    if (medium->majorants().is_everywhere()) return;
+    for (std::uint32_t i = 0; i < root_->count(); ++i) cells.add_surface(root_->box(i));
 }
 
 void Scene::set_light_chooser(std::string_view name) {

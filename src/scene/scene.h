@@ -1,6 +1,7 @@
 /// The finished, immutable scene: what a ray meets, whether a point sees another, which light to sample.
 #pragma once
 
+#include <cassert>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include "base/hit.h"
 #include "lights/light_chooser.h"
 #include "materials/material.h"
+#include "media/clear_cells.h"
 #include "scene/distance_scene.h"
 #include "scene/object.h"
 
@@ -67,9 +69,12 @@ class Scene {
 
     /// What the camera stands in; nullptr for nothing.
     const Medium* medium_at_camera() const { return medium_at_camera_; }
-    void set_medium_at_camera(const Medium* medium) {
-        medium_at_camera_ = medium;
-        has_media_ = has_media_ || medium;
+    void set_medium_at_camera(const Medium* medium);
+    /// Where light in a medium, which must be one of the scene's, meets no surface.
+    const ClearCells& clear_cells(const Medium& medium) const {
+        const ClearCells* cells = find_cells(medium);
+        assert(cells);
+        return *cells;
     }
     /// What textures blur over where the camera looks at them; empty: nothing.
     const PixelCone* pixel_cone() const { return pixel_cone_ ? &*pixel_cone_ : nullptr; }
@@ -81,6 +86,13 @@ class Scene {
     SceneCounts counts() const;
 
   private:
+    const ClearCells* find_cells(const Medium& medium) const {
+        for (const ClearCells& cells : clear_cells_)
+            if (&cells.medium() == &medium) return &cells;
+        return nullptr;
+    }
+    void add_medium(const Medium* medium);
+
     std::vector<std::unique_ptr<Light>> owned_lights_;
     std::vector<std::unique_ptr<Object>> objects_;
     const Object* root_;
@@ -89,6 +101,7 @@ class Scene {
     std::unique_ptr<DistanceScene> approximation_;
     Bounds3 bounds_;
     const Medium* medium_at_camera_ = nullptr;
+    std::vector<ClearCells> clear_cells_; ///< one a medium
     std::optional<PixelCone> pixel_cone_;
     bool has_media_ = false;
     bool moves_ = false;
