@@ -35,10 +35,7 @@ Change other_sampler(const std::string& type) {
 /// A parameter of the path tracer.
 Change other_rule(std::string name, Parameter parameter) {
     return {std::move(name), [parameter = std::move(parameter)](SceneDescription& scene) {
-                // Others have no such parameter.
-                if (scene.integrator.type == "path" || scene.integrator.type == "volpath" ||
-                    scene.integrator.type.empty())
-                    scene.integrator.set(parameter);
+                set_path_parameter(scene, parameter);
             }};
 }
 

@@ -105,8 +105,7 @@ NoiseModel model_noise(const ReferenceComparison& c, const std::filesystem::path
                        ReferenceComparisonOptions options) {
     options.change = [inner = options.change](SceneDescription& scene) {
         if (inner) inner(scene);
-        const std::string& type = scene.integrator.type;
-        if (type == "path" || type == "volpath") scene.integrator.set(make_float("roulettethreshold", 1));
+        set_path_parameter(scene, make_float("roulettethreshold", 1));
     };
     NoiseModel model;
     for (int seed = 0; seed < c.seeds; ++seed)
@@ -171,6 +170,12 @@ void compare_blocks(ReferenceComparison& c, const std::vector<Image>& images, co
 }
 
 } // namespace
+
+void set_path_parameter(SceneDescription& scene, const Parameter& parameter) {
+    const std::string& type = scene.integrator.type;
+    // Scenes that name none are rendered by volpath.
+    if (type == "path" || type == "volpath" || type.empty()) scene.integrator.set(parameter);
+}
 
 ReferenceComparison compare_with_reference(const std::filesystem::path& folder,
                                            const ReferenceComparisonOptions& options) {

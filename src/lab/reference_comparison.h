@@ -47,6 +47,10 @@ struct ReferenceComparison {
     double flip = 0;
 };
 
+/// Sets a parameter of the path tracer, where the scene is rendered by it; other integrators have no such
+/// parameter.
+void set_path_parameter(SceneDescription& scene, const Parameter& parameter);
+
 /// folder: with scene.pbrt, reference.exr, reference.json. Throws std::runtime_error or SceneError.
 ReferenceComparison compare_with_reference(const std::filesystem::path& folder,
                                            const ReferenceComparisonOptions& options);

@@ -11,10 +11,6 @@ ClearCells::ClearCells(const Medium& medium) : medium_(medium) {
     clear_.assign(index({n.x - 1, n.y - 1, n.z - 1}) + 1, 1);
 }
 
-bool ClearCells::has_any() const {
-    return std::find(clear_.begin(), clear_.end(), 1) != clear_.end();
-}
-
 void ClearCells::add_surface(const Bounds3& box) {
     if (clear_.empty() || box.empty()) return;
     const MajorantGrid& grid = medium_.majorants();

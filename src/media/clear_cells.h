@@ -19,7 +19,6 @@ class ClearCells {
 
     const Medium& medium() const { return medium_; }
     bool contains(Vec3i cell) const { return clear_[index(cell)] != 0; }
-    bool has_any() const;
 
   private:
     std::size_t index(Vec3i cell) const {
