@@ -86,9 +86,9 @@ std::string measure(const Arguments& a) {
         fmt::print("\n");
         std::fflush(stdout);
     }
-    std::string table =
-        fmt::format("\n{} samples a pixel, {} seeds.\n\n| instead of zsobol, lights by tree |", a.options.spp,
-                    a.options.seeds);
+    std::string table = fmt::format(
+        "\n{} samples a pixel, {} seeds.\n\n| instead of zsobol, lights by tree, roulette below 0.25 |",
+        a.options.spp, a.options.seeds);
     for (const std::string& name : names) table += " " + name + " |";
     table += " geometric mean |\n|---|";
     for (std::size_t i = 0; i <= names.size(); ++i) table += "---|";
