@@ -4,13 +4,21 @@
 
 #include "image/codec.h"
 #include "image/encoding.h"
+#include "textures/parameter_step.h"
 
 namespace alhazen {
 
 namespace {
 
-// Step of the parameters over which heights are compared: pbrt-v4's where a ray has no footprint.
-constexpr float step = 0.0005f;
+// Over what change of a parameter heights are compared: half a pixel (Pharr et al. 2023, section 10.5.3); where rays
+// have no footprint, as pbrt-v4. Never so little that the rounding of the point, or of the parameter, shows in slopes.
+float step_along(Vec3 p, Vec3 tangent, float half_pixel) {
+    if (!(half_pixel > 0)) return 0.0005f;
+    constexpr float rounding = 1.5e-5f;
+    const float size = length(tangent);
+    const float least = size > 0 ? rounding * std::max(1.0f, length(p) / size) : rounding;
+    return std::max(half_pixel, std::min(least, 0.0005f));
+}
 
 // The surface's tangents once it is raised by the height along its normal. The last term says that on a
 // curved surface the raised one is wider or narrower.
@@ -20,12 +28,17 @@ struct Tangents {
 Tangents raised(const Hit& hit, const NormalChange& change, const FloatTexture& height) {
     const TexturePoint here(hit);
     const float h = height.eval(here);
-    auto slope = [&](Vec3 tangent, Vec2 along) {
-        const TexturePoint beside(here.p + tangent * step, here.ng, here.uv + along * step);
+    const Vec2 half = half_pixel(hit);
+    auto slope = [&](Vec3 tangent, Vec2 along, float half_along) {
+        const float step = step_along(hit.p, tangent, half_along);
+        // The texture is blurred there as it is here.
+        TexturePoint beside = here;
+        beside.p = here.p + tangent * step;
+        beside.uv = here.uv + along * step;
         return (height.eval(beside) - h) / step;
     };
-    return {hit.dpdu + hit.ns * slope(hit.dpdu, {1, 0}) + change.dndu * h,
-            hit.dpdv + hit.ns * slope(hit.dpdv, {0, 1}) + change.dndv * h};
+    return {hit.dpdu + hit.ns * slope(hit.dpdu, {1, 0}, half.x) + change.dndu * h,
+            hit.dpdv + hit.ns * slope(hit.dpdv, {0, 1}, half.y) + change.dndv * h};
 }
 
 Tangents across(Vec3 n, const Hit& hit) {

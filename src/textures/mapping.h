@@ -4,6 +4,7 @@
 #pragma once
 
 #include "describe/fields.h"
+#include "textures/parameter_step.h"
 #include "textures/texture.h"
 
 namespace alhazen {
@@ -99,16 +100,6 @@ struct TextureMapping {
         float& turned = angle == 0 ? change.x : change.y;
         turned -= std::round(turned);
         return change * (1 / part);
-    }
-    /// The change of u and v that moves the point by d, or comes nearest to it.
-    static Vec2 parameter_step(const Hit& hit, Vec3 d) {
-        const float uu = length_squared(hit.dpdu), uv = dot(hit.dpdu, hit.dpdv),
-                    vv = length_squared(hit.dpdv);
-        const float determinant = uu * vv - uv * uv;
-        if (!(determinant > 0)) return {};
-        const float u = dot(hit.dpdu, d), v = dot(hit.dpdv, d);
-        const Vec2 change{(vv * u - uv * v) / determinant, (uu * v - uv * u) / determinant};
-        return std::isfinite(change.x) && std::isfinite(change.y) ? change : Vec2();
     }
 };
 

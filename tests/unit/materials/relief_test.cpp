@@ -25,6 +25,15 @@ struct Ramp final : FloatNode {
 struct ByPlace final : FloatNode {
     float eval(const TexturePoint& at) const override { return at.p.x * 0.5f; }
 };
+// Of one height where a pixel is known, rough where it is not.
+struct BlurredAway final : FloatNode {
+    float eval(const TexturePoint& at) const override {
+        return at.hit && at.hit->cone ? 0.25f : std::sin(at.uv.x * 1e4f);
+    }
+};
+struct Step final : FloatNode {
+    float eval(const TexturePoint& at) const override { return at.uv.x > 0.5f ? 1.0f : 0.0f; }
+};
 struct Nonsense final : FloatNode {
     float eval(const TexturePoint& at) const override { return at.uv.x > 0.5f ? infinity : -infinity; }
 };
@@ -99,6 +108,36 @@ TEST(Relief, BumpsOnASphereAreThoseOfTheRaisedSphere) {
                 }
                 expect_near(hit.ns, expected * side, 3e-3f);
             }
+}
+
+// The heights that are compared are blurred alike.
+TEST(Relief, BumpsFinerThanAPixelVanish) {
+    PixelCone cone;
+    cone.parallel = {0, 0, -1};
+    cone.width = 0.2f;
+    Hit hit = plane();
+    hit.cone = &cone;
+    bumps(std::make_shared<BlurredAway>()).apply(hit, {});
+    expect_near(hit.ns, {0, 0, 1}, 0);
+}
+
+// Pixels 0.2 wide cover 0.1 of u, whose unit is 2 long: a step as high as 1 rises by 1 over half of that.
+TEST(Relief, HeightsAreComparedOverHalfAPixel) {
+    PixelCone cone;
+    cone.parallel = {0, 0, -1};
+    cone.width = 0.2f;
+    Hit hit = plane();
+    hit.cone = &cone;
+    bumps(std::make_shared<Step>()).apply(hit, {});
+    expect_near(hit.dpdu, {2, 0, 20}, 1e-3f);
+    expect_near(hit.dpdv, {0, 3, 0}, 1e-3f);
+    // Far from the world's origin no step is less than what rounding leaves exact.
+    cone.width = 1e-7f;
+    hit = plane();
+    hit.p = {1000, 0, 0};
+    hit.cone = &cone;
+    bumps(std::make_shared<ByPlace>()).apply(hit, {});
+    expect_near(hit.ns, normalize(Vec3(-0.5f, 0, 1)), 0.1f);
 }
 
 TEST(Relief, WhatCannotBeTurnedStaysSmooth) {
