@@ -48,12 +48,20 @@ Change other_roulette(float threshold) {
                       make_float("roulettethreshold", threshold));
 }
 
+/// Light of the sky is drawn as if no BSDF found it, too.
+Change without_compensation() {
+    return {"without MIS compensation", [](SceneDescription& scene) {
+                for (LightNode& light : scene.lights)
+                    if (light.node.type == "infinite") light.node.set(make_bool("compensate", false));
+            }};
+}
+
 /// The first is the default.
 std::vector<Change> changes() {
     return {other_sampler("zsobol"),  other_sampler("independent"), other_sampler("stratified"),
             other_sampler("halton"),  other_sampler("sobol"),       other_sampler("paddedsobol"),
             other_sampler("pmj02bn"), other_light_sampler("power"), other_light_sampler("uniform"),
-            other_roulette(1),        other_roulette(0.06f)};
+            other_roulette(1),        other_roulette(0.06f),        without_compensation()};
 }
 
 /// Noise times processor seconds.

@@ -22,6 +22,7 @@ struct InfiniteLight final : Light {
     std::optional<float> illuminance;
     std::string filename;
     std::vector<Vec3> portal;
+    bool compensate = true;
 
     static void describe(Fields<InfiniteLight>& f) {
         f.about("Surrounds the scene. An image is either square (an equal-area octahedral map, as pbrt-v4 "
@@ -39,9 +40,13 @@ struct InfiniteLight final : Light {
              "four corners of a rectangle in world space, in order round its edge, through which all of the "
              "light comes; (corner 3 - corner 0) x (corner 1 - corner 0) points outwards")
             .unit("scene units");
+        f.field("compensate", &InfiniteLight::compensate,
+                "path tracers draw from the light only what is brighter than the mean, as directions of the "
+                "BSDF find the rest (MIS compensation); the mean is the same without");
         f.example("grey sky", {make_rgb("L", .5f, .5f, .6f)});
         f.example("measured", {make_float("illuminance", 10), make_float("scale", .5f)});
         f.example("picture", {make_string("filename", "sky.exr"), make_float("scale", 2)});
+        f.example("all of a picture", {make_string("filename", "sky.exr"), make_bool("compensate", false)});
         f.example("window", {make_string("filename", "sky.exr"),
                              make_array<Vec3>("portal", ValueType::point3,
                                               {{-2, -1, 5}, {-2, 3, 5}, {1, 3, 5}, {1, -1, 5}})});
@@ -74,8 +79,8 @@ struct InfiniteLight final : Light {
     std::optional<LightSample> sample_beside_bsdf(const LightReceiver& at, Vec2 u,
                                                   const Wavelengths& lambda) const override {
         // BSDFs find a uniform sky better than anybody.
-        if (!map_ && !portal_) return std::nullopt;
-        return sample(at, u, lambda, EnvironmentMap::Draw::bright);
+        if (compensate && !map_ && !portal_) return std::nullopt;
+        return sample(at, u, lambda, beside_bsdf());
     }
     std::optional<LightSample> sample(const LightReceiver& at, Vec2 u, const Wavelengths& lambda,
                                       EnvironmentMap::Draw draw) const {
@@ -110,13 +115,15 @@ struct InfiniteLight final : Light {
         return color_.eval(lambda);
     }
     float pdf_escaped(const LightReceiver& at, Vec3 d) const override {
+        return pdf_escaped(at, d, EnvironmentMap::Draw::all);
+    }
+    float pdf_escaped(const LightReceiver& at, Vec3 d, EnvironmentMap::Draw draw) const {
         if (portal_) return portal_->pdf(at.p, d);
-        return map_ ? map_->pdf(space_.to_light(d), EnvironmentMap::Draw::all) * space_.stretch(d)
-                    : sphere_pdf();
+        return map_ ? map_->pdf(space_.to_light(d), draw) * space_.stretch(d) : sphere_pdf();
     }
     float pdf_escaped_beside_bsdf(const LightReceiver& at, Vec3 d) const override {
-        if (portal_) return portal_->pdf(at.p, d);
-        return map_ ? map_->pdf(space_.to_light(d), EnvironmentMap::Draw::bright) * space_.stretch(d) : 0;
+        if (compensate && !map_ && !portal_) return 0;
+        return pdf_escaped(at, d, beside_bsdf());
     }
     /// From a place of the disk that the light of the drawn direction comes through.
     std::optional<LeavingLight> sample_leaving(Vec2 u1, Vec2 u2, const Wavelengths& lambda,
@@ -141,6 +148,9 @@ struct InfiniteLight final : Light {
     }
 
   private:
+    EnvironmentMap::Draw beside_bsdf() const {
+        return compensate ? EnvironmentMap::Draw::bright : EnvironmentMap::Draw::all;
+    }
     bool check(const Node& node, BuildContext& context) const {
         const std::size_t errors = context.messages.error_count();
         if (node.find("L") && !filename.empty())

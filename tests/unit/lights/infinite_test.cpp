@@ -195,6 +195,26 @@ TEST_F(InfiniteLightTest, BesideBsdfsOnlyWhatIsBrightIsDrawnAndNothingIsLost) {
     expect_color(irradiance_with_cosine_sampling(*sky, at), Vec3(1, 2, 3) * pi, 0.01f);
 }
 
+TEST_F(InfiniteLightTest, WithoutCompensationBsdfsChangeNothing) {
+    LightReceiver at{{0, 0, 0}, normalize(Vec3(0.3f, -1, 0.5f))};
+    const Parameter all = make_bool("compensate", false);
+    auto picture = light_of(varied_image(16, 16), ColorMode::rgb, {all}, Matrix4::rotate(20, {1, 1, 0}));
+    auto sky = make_light("infinite", {make_rgb("L", 1, 2, 3), all});
+    sky->prepare(unit_scene);
+    Rng rng(6);
+    for (const Light* light : {&*picture, &*sky})
+        for (int i = 0; i < 1000; ++i) {
+            const Vec2 u{rng.uniform(), rng.uniform()};
+            auto alone = light->sample(at, u, Wavelengths::rgb());
+            auto beside = light->sample_beside_bsdf(at, u, Wavelengths::rgb());
+            ASSERT_EQ(alone.has_value(), beside.has_value());
+            if (!alone) continue;
+            EXPECT_EQ(alone->wi, beside->wi);
+            EXPECT_EQ(alone->pdf, beside->pdf);
+            EXPECT_EQ(light->pdf_escaped(at, alone->wi), light->pdf_escaped_beside_bsdf(at, alone->wi));
+        }
+}
+
 TEST_F(InfiniteLightTest, PowerOfAnImageIsThatOfItsMean) {
     Image image = varied_image(32, 16);
     for (ColorMode mode : both_modes) {
