@@ -86,7 +86,7 @@ std::optional<DirectLight> propose_light_in_medium(const MediumCrossing& at, con
         return std::nullopt;
     }
     std::optional<LightSample> light =
-        chosen->light->sample(receiver, path.pair_for(*chosen->light), path.lambda);
+        chosen->light->sample_beside_bsdf(receiver, path.pair_for(*chosen->light), path.lambda);
     if (!light || !(light->pdf > 0) || light->L.is_black()) return std::nullopt;
 
     DirectLight direct;

@@ -105,7 +105,7 @@ struct VolPath final : PathIntegrator {
             float pdf = 0;
             if (!walk.specular)
                 pdf = path.scene.light_probability(walk.from, light) *
-                      light->pdf_escaped(walk.from, walk.ray.d);
+                      light->pdf_escaped_beside_bsdf(walk.from, walk.ray.d);
             sum += walk.found(light->escaped(walk.ray.o, walk.ray.d, path.lambda), pdf);
         }
         return sum;
@@ -123,7 +123,8 @@ struct VolPath final : PathIntegrator {
 
     static Task<Spectrum> direct_light_at_surface(const Hit& hit, const Bsdf& bsdf, const Walk& walk,
                                                   PathContext& path) {
-        const std::optional<DirectLight> direct = propose_light(hit, bsdf, hit.shading_frame(), path);
+        const std::optional<DirectLight> direct =
+            propose_light(hit, bsdf, hit.shading_frame(), path, LightSampling::beside_bsdf);
         if (!direct) co_return 0;
         const LaneWeights weights =
             co_await shadow_weights(direct->shadow_ray, medium_beyond(hit, direct->shadow_ray.d, walk.medium),
