@@ -74,14 +74,14 @@ struct Sphere final : QuadricShape<Sphere> {
   private:
     Hit ball_surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const {
         Hit hit = ball_plain_surface(ray, primitive, met);
-        ObjectTangents tangents = this->tangents(placement.to_object_vector(from_centre(ray)));
+        ObjectTangents tangents = this->tangents(placement.to_object_vector(from_centre(ray, met.t)));
         hit.dpdu = Vec3(placement.vector(tangents.dpdu));
         hit.dpdv = Vec3(placement.vector(tangents.dpdv));
         hit.uv = tangents.uv;
         return hit;
     }
     Hit ball_plain_surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const {
-        Vec3d from_centre = this->from_centre(ray), p = ball_->centre + from_centre;
+        Vec3d from_centre = this->from_centre(ray, met.t), p = ball_->centre + from_centre;
         Hit hit;
         hit.p = Vec3(p);
         hit.p_error = rounding_error(p, abs(ball_->centre) + abs(from_centre));
@@ -92,11 +92,23 @@ struct Sphere final : QuadricShape<Sphere> {
         hit.primitive = primitive;
         return hit;
     }
-    // Of the point where the ray meets the ball: not from the Intersection's t, which is rounded.
-    Vec3d from_centre(const Ray& ray) const {
-        BallRay exact(ray);
-        Vec3d v = exact.o - ball_->centre + exact.d * ball_->intersect(exact);
-        return v * (ball_->radius / length(v));
+    // Of the point where the ray meets the ball: not from the Intersection's t, which is rounded, but by one
+    // step of Newton's method from there, which no square root is needed for. Not where the ray grazes the
+    // ball.
+    Vec3d from_centre(const Ray& ray, float t) const {
+        const Vec3d d(ray.d);
+        const double r2 = ball_->radius * ball_->radius;
+        Vec3d v = Vec3d(ray.o) - ball_->centre + d * static_cast<double>(t);
+        const double above = dot(v, v) - r2, slope = dot(v, d);
+        if (std::abs(above) * dot(d, d) < 1e-4 * (slope * slope)) {
+            v -= d * (above / (2 * slope));
+        } else {
+            const BallRay exact(ray);
+            v = exact.o - ball_->centre + exact.d * ball_->intersect(exact);
+        }
+        // Onto the ball: 1 / sqrt(1 + e) is 1 - e / 2 for small e.
+        const double e = dot(v, v) / r2 - 1;
+        return v * (std::abs(e) < 1e-8 ? 1 - e / 2 : 1 / std::sqrt(1 + e));
     }
 
     // Squared distance of the reference from the centre over the radius squared, when the cone of directions
