@@ -10,8 +10,9 @@ namespace alhazen {
 
 namespace {
 
-// Over what change of a parameter heights are compared: half a pixel (Pharr et al. 2023, section 10.5.3); where rays
-// have no footprint, as pbrt-v4. Never so little that the rounding of the point, or of the parameter, shows in slopes.
+// Over what change of a parameter heights are compared: half a pixel (Pharr et al. 2023, section 10.5.3);
+// where rays have no footprint, as pbrt-v4. Never so little that the rounding of the point, or of the
+// parameter, shows in slopes.
 float step_along(Vec3 p, Vec3 tangent, float half_pixel) {
     if (!(half_pixel > 0)) return 0.0005f;
     constexpr float rounding = 1.5e-5f;
