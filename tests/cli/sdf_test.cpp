@@ -101,5 +101,30 @@ TEST_F(SdfCommand, SaysWhatIsWrong) {
     EXPECT_THAT(missing.err, HasSubstr("grid file \"cube.vol\": no such file"));
 }
 
+// Wherever a scene names one: as a shape and as a medium, from the folder that the program runs in.
+TEST_F(SdfCommand, SaysHowToConvertOpenVdbFiles) {
+    std::filesystem::create_directories(path("scenes"));
+    write("scenes/shape.pbrt", R"(WorldBegin
+Shape "sdfgrid" "string filename" "wisp.vdb"
+)");
+    write("scenes/medium.pbrt", R"(Integrator "volpath"
+WorldBegin
+MakeNamedMedium "wisp" "string type" "nanovdb" "string filename" "wisp.vdb"
+)");
+    const std::string is_read =
+        has_nanovdb() ? "is" : "is by programs built with NanoVDB (package libnanovdb-dev)";
+    const std::string text = ": error: grid file \"wisp.vdb\": it is an OpenVDB file, which is not read; a "
+                             "NanoVDB file " +
+                             is_read +
+                             ", and this command (Debian's package libnanovdb-tools) makes one of it: "
+                             "nanovdb_convert scenes/wisp.vdb scenes/wisp.nvdb\n";
+    for (const char* place : {"scenes/shape.pbrt:2:17", "scenes/medium.pbrt:3:48"}) {
+        const std::string scene = std::string(place).substr(0, std::string(place).find(':'));
+        Outcome o = alhazen("render " + scene);
+        EXPECT_EQ(o.exit_code, 2);
+        EXPECT_EQ(o.err, place + text);
+    }
+}
+
 } // namespace
 } // namespace alhazen::testing

@@ -100,8 +100,21 @@ TEST(GridFiles, BrokenVolumesAreRefused) {
     write_file(file, good.substr(0, good.size() - 1));
     EXPECT_THAT(error_of(file), HasSubstr("bytes for"));
     EXPECT_THAT(error_of(temporary("absent.vol")), HasSubstr("no such file"));
-    EXPECT_THAT(error_of(temporary("grid.vdb")), HasSubstr("nanovdb_convert"));
     EXPECT_THAT(error_of(temporary("grid.raw")), HasSubstr("unknown suffix"));
+}
+
+// The command can be pasted, whatever the file is called.
+TEST(GridFiles, OpenVdbFilesAreToldHowToConvert) {
+    const std::string text =
+        has_nanovdb() ? "it is an OpenVDB file, which is not read; a NanoVDB file is, and this command "
+                        "(Debian's package libnanovdb-tools) makes one of it: nanovdb_convert "
+                      : "it is an OpenVDB file, which is not read; a NanoVDB file is by programs built with "
+                        "NanoVDB (package libnanovdb-dev), and this command (Debian's package "
+                        "libnanovdb-tools) makes one of it: nanovdb_convert ";
+    EXPECT_EQ(error_of("clouds/wisp.vdb"), text + "clouds/wisp.vdb clouds/wisp.nvdb");
+    EXPECT_EQ(error_of("WISP.2.VDB", "density"), text + "WISP.2.VDB WISP.2.nvdb");
+    EXPECT_EQ(error_of("a wisp.vdb"), text + "'a wisp.vdb' 'a wisp.nvdb'");
+    EXPECT_EQ(error_of("Ann's$.vdb"), text + R"('Ann'\''s$.vdb' 'Ann'\''s$.nvdb')");
 }
 
 TEST(GridFiles, LevelSetsAreReadAsTheyWereWritten) {
