@@ -58,9 +58,22 @@ class Primitives {
     virtual Bounds3 bounds(std::uint32_t primitive) const = 0;
     /// For triangles only, whose box follows from them.
     virtual Corners corners(std::uint32_t primitive) const = 0;
-    /// Of many triangles that stand anywhere in memory: whoever knows where can let the fetches overlap.
-    virtual void gather_corners(std::span<const std::uint32_t> primitives, Corners* to) const {
-        for (std::uint32_t primitive : primitives) *to++ = corners(primitive);
+    /// Of n triangles that stand anywhere in memory: coordinate `axis` of corner c of the i-th goes to
+    /// to[(3 c + axis) n + i].
+    virtual void gather_corners(std::span<const std::uint32_t> primitives, float* to) const {
+        const std::size_t n = primitives.size();
+        for (std::size_t i = 0; i < n; ++i) store_corners(corners(primitives[i]), to + i, n);
+    }
+    /// Asks for the memory that gather_corners will read of these triangles, so that it need not wait: step 0
+    /// for where it looks first, and, some time after, 1 and 2 for what that refers to.
+    virtual void prefetch_corners(std::span<const std::uint32_t> /*primitives*/, int /*step*/) const {}
+
+  protected:
+    /// Coordinates that are n apart.
+    static void store_corners(const Corners& t, float* to, std::size_t n) {
+        const Vec3 corner[3] = {t.a, t.b, t.c};
+        for (const Vec3& c : corner)
+            for (int axis = 0; axis < 3; ++axis, to += n) *to = c[axis];
     }
 };
 

@@ -161,21 +161,31 @@ Corners Object::corners(std::uint32_t primitive) const {
     return {a, b, c};
 }
 
-// Step by step for all, so that one does not wait for another's memory.
-void Object::gather_corners(std::span<const std::uint32_t> primitives, Corners* to) const {
-    constexpr std::size_t most = 8;
-    for (; primitives.size() > most; primitives = primitives.subspan(most), to += most)
-        gather_corners(primitives.first(most), to);
-    std::array<const TriangleMesh*, most> mesh;
-    std::array<const int*, most> indices;
-    for (std::size_t i = 0; i < primitives.size(); ++i) {
+void Object::gather_corners(std::span<const std::uint32_t> primitives, float* to) const {
+    const std::size_t n = primitives.size();
+    for (std::size_t i = 0; i < n; ++i) {
         const Primitive& p = primitives_[primitives[i]];
-        mesh[i] = leaves_[p.shape].mesh;
-        indices[i] = &mesh[i]->indices[std::size_t{3} * p.primitive];
+        const TriangleMesh& mesh = *leaves_[p.shape].mesh;
+        const int* indices = &mesh.indices[std::size_t{3} * p.primitive];
+        auto at = [&](int corner) { return mesh.P[static_cast<std::size_t>(indices[corner])]; };
+        store_corners({at(0), at(1), at(2)}, to + i, n);
     }
-    for (std::size_t i = 0; i < primitives.size(); ++i) {
-        auto at = [&](int corner) { return mesh[i]->P[static_cast<std::size_t>(indices[i][corner])]; };
-        to[i] = {at(0), at(1), at(2)};
+}
+
+void Object::prefetch_corners(std::span<const std::uint32_t> primitives, int step) const {
+    for (const std::uint32_t primitive : primitives) {
+        const Primitive* p = &primitives_[primitive];
+        if (step == 0) {
+            __builtin_prefetch(p);
+            continue;
+        }
+        const TriangleMesh& mesh = *leaves_[p->shape].mesh;
+        const int* indices = &mesh.indices[std::size_t{3} * p->primitive];
+        if (step == 1)
+            __builtin_prefetch(indices);
+        else
+            for (int corner = 0; corner < 3; ++corner)
+                __builtin_prefetch(&mesh.P[static_cast<std::size_t>(indices[corner])]);
     }
 }
 

@@ -113,7 +113,8 @@ class Object final : public Primitives {
     PrimitiveKinds kinds() const override;
     Bounds3 bounds(std::uint32_t primitive) const override;
     Corners corners(std::uint32_t primitive) const override;
-    void gather_corners(std::span<const std::uint32_t> primitives, Corners* to) const override;
+    void gather_corners(std::span<const std::uint32_t> primitives, float* to) const override;
+    void prefetch_corners(std::span<const std::uint32_t> primitives, int step) const override;
 
   private:
     class ClosestTests;

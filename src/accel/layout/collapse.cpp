@@ -280,44 +280,61 @@ class Expansion {
         int depth; // of its children
     };
 
+    // Nodes that stand one after another, and what a walk of them needs.
+    struct Part {
+        std::vector<CollapsedNode> nodes;
+        int depth = 0;
+        std::uint32_t stack = 0;
+    };
+
     void expand(CollapsedTree& tree) const {
         const auto size = static_cast<std::uint32_t>(nodes_.size());
         // What is above large subtrees first, then these, each by itself and in parallel.
         const std::uint32_t piece = std::max(16384u, size / 64);
+        Part top;
         std::vector<Open> later;
-        expand(tree, {0, {0, size}, 1}, piece, later);
-        std::vector<CollapsedTree> parts(later.size());
+        expand(top, {0, {0, size}, 1}, piece, later);
+        std::vector<Part> parts(later.size());
         parallel_for(later.size(), 1, [&](std::size_t i) {
             std::vector<Open> none;
             expand(parts[i], {0, later[i].from, later[i].depth}, 0, none);
+            std::vector<std::uint32_t> need(parts[i].nodes.size(), 0);
+            parts[i].stack = stack_of(parts[i].nodes, need);
         });
-        // Each part's root goes to the place kept for it, its other nodes behind those there are.
-        std::vector<std::uint32_t> behind(parts.size());
-        auto total = static_cast<std::uint32_t>(tree.nodes.size());
+        join(top, later, parts, tree);
+    }
+    // Each part's root goes to the place kept for it, its other nodes behind those there are.
+    static void join(const Part& top, const std::vector<Open>& later, std::vector<Part>& parts,
+                     CollapsedTree& tree) {
+        std::vector<std::uint32_t> behind(parts.size()), need(top.nodes.size(), 0);
+        auto total = static_cast<std::uint32_t>(top.nodes.size());
+        tree.depth = top.depth;
         for (std::size_t i = 0; i < parts.size(); ++i) {
             behind[i] = total;
             total += static_cast<std::uint32_t>(parts[i].nodes.size()) - 1;
             tree.depth = std::max(tree.depth, parts[i].depth);
+            need[later[i].wide] = parts[i].stack;
         }
-        tree.nodes.resize(total);
+        tree.stack = stack_of(top.nodes, need) + 1;
+        tree.nodes = BigArray<CollapsedNode>(total);
+        std::copy(top.nodes.begin(), top.nodes.end(), tree.nodes.data());
         parallel_for(parts.size(), 1, [&](std::size_t i) {
-            std::span<CollapsedNode> part = parts[i].nodes;
+            std::vector<CollapsedNode> part = std::move(parts[i].nodes);
             for (CollapsedNode& node : part)
                 for (std::size_t k = 0; k < node.children().size(); ++k)
                     if (!node.child[k].is_leaf()) node.child[k].node += behind[i] - 1;
             tree.nodes[later[i].wide] = part[0];
-            std::copy(part.begin() + 1, part.end(), tree.nodes.begin() + behind[i]);
+            std::copy(part.begin() + 1, part.end(), tree.nodes.data() + behind[i]);
         });
-        tree.stack = stack_of(tree);
     }
 
     // Subtrees of no more than piece nodes are left for later.
-    void expand(CollapsedTree& tree, const Open& root, std::uint32_t piece, std::vector<Open>& later) const {
+    void expand(Part& part, const Open& root, std::uint32_t piece, std::vector<Open>& later) const {
         std::vector<Open> open{root};
         Subtrees children;
         // About right where leaves are full already; too much elsewhere, which is not touched.
-        tree.nodes.reserve((root.from.end - root.from.root) / 12 + 1);
-        tree.nodes.emplace_back();
+        part.nodes.reserve((root.from.end - root.from.root) / 12 + 1);
+        part.nodes.emplace_back();
         while (!open.empty()) {
             const Open o = open.back();
             open.pop_back();
@@ -328,17 +345,17 @@ class Expansion {
             children.clear();
             choose_children(o.from, children);
             if (shape_.by_size) sort_by_size(children);
-            fill(tree, o, children, open);
+            fill(part, o, children, open);
         }
     }
-    void fill(CollapsedTree& tree, const Open& o, const Subtrees& children, std::vector<Open>& open) const {
-        tree.depth = std::max(tree.depth, o.depth);
+    void fill(Part& part, const Open& o, const Subtrees& children, std::vector<Open>& open) const {
+        part.depth = std::max(part.depth, o.depth);
         // Room for the children that are nodes; then nothing moves any more.
-        auto next = static_cast<std::uint32_t>(tree.nodes.size());
+        auto next = static_cast<std::uint32_t>(part.nodes.size());
         std::size_t inner = 0;
         for (const Subtree& child : children) inner += !decisions_[child.root].is_leaf();
-        tree.nodes.resize(tree.nodes.size() + inner);
-        CollapsedNode& node = tree.nodes[o.wide];
+        part.nodes.resize(part.nodes.size() + inner);
+        CollapsedNode& node = part.nodes[o.wide];
         node.count = static_cast<int>(children.size());
         const std::size_t first = open.size();
         for (std::size_t k = 0; k < children.size(); ++k) {
@@ -415,15 +432,16 @@ class Expansion {
         }
     }
 
-    static std::uint32_t stack_of(const CollapsedTree& tree) {
-        std::vector<std::uint32_t> need(tree.nodes.size(), 0);
-        for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    // Entries that a walk from the first node needs. need: of each node, 0 where it has to be found yet.
+    static std::uint32_t stack_of(std::span<const CollapsedNode> nodes, std::vector<std::uint32_t>& need) {
+        for (std::size_t i = nodes.size(); i-- > 0;) {
+            if (need[i]) continue;
             std::uint32_t deepest = 1;
-            for (const WideChild& child : tree.nodes[i].children())
+            for (const WideChild& child : nodes[i].children())
                 if (!child.is_leaf()) deepest = std::max(deepest, need[child.node]);
-            need[i] = static_cast<std::uint32_t>(tree.nodes[i].count) - 1 + deepest;
+            need[i] = static_cast<std::uint32_t>(nodes[i].count) - 1 + deepest;
         }
-        return need[0] + 1;
+        return need[0];
     }
 
     std::span<const Tree::Node> nodes_;

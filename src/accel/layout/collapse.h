@@ -11,9 +11,9 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include "accel/build/tree.h"
+#include "base/big_array.h"
 
 namespace alhazen {
 
@@ -47,7 +47,7 @@ struct CollapsedTree {
 
     /// The root first, parents before their children; those children of a node that are nodes follow one
     /// another.
-    std::vector<CollapsedNode> nodes;
+    BigArray<CollapsedNode> nodes;
     WideLeaf single_leaf;    ///< count > 0: there is one leaf only, and no node
     int depth = 0;           ///< edges from the root to the deepest leaf
     std::uint32_t stack = 0; ///< entries that a walk needs at most, sentinel and top included

@@ -16,6 +16,9 @@ constexpr std::size_t slack = 512;
 // box tests come there.
 constexpr std::uint32_t null_leaf = wide_unit | wide_leaf | wide_other;
 
+// So many nodes before it is needed memory is asked for, three times one after the other (prefetch_corners).
+constexpr std::size_t fetch_distance = 3;
+
 constexpr std::size_t round_up(std::size_t n, std::size_t unit) {
     return (n + unit - 1) / unit * unit;
 }
@@ -53,17 +56,11 @@ class LeafContents {
         auto* numbers = reinterpret_cast<std::uint32_t*>(at) + (is_custom_ ? 0u : 9 * count_);
         std::copy_n(primitive_, count_, numbers);
         if (is_custom_) return;
-        std::array<Corners, Tree::max_leaf_size> triangles;
-        primitives.gather_corners({primitive_, count_}, triangles.data());
-        auto* coordinates = reinterpret_cast<float*>(at);
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            if (is_filtered_ && primitives.kind(primitive_[i]) == PrimitiveKind::filtered_triangle)
+        primitives.gather_corners({primitive_, count_}, reinterpret_cast<float*>(at));
+        if (!is_filtered_) return;
+        for (std::uint32_t i = 0; i < count_; ++i)
+            if (primitives.kind(primitive_[i]) == PrimitiveKind::filtered_triangle)
                 numbers[i] |= wide_filtered;
-            const Vec3 corner[3] = {triangles[i].a, triangles[i].b, triangles[i].c};
-            for (std::uint32_t c = 0; c < 3; ++c)
-                for (std::uint32_t axis = 0; axis < 3; ++axis)
-                    coordinates[(3 * c + axis) * count_ + i] = corner[c][static_cast<int>(axis)];
-        }
     }
 
   private:
@@ -74,26 +71,28 @@ class LeafContents {
     bool is_custom_, is_filtered_ = false;
 };
 
+using Lanes8 = float __attribute__((vector_size(32)));
+using IntLanes8 = int __attribute__((vector_size(32)));
+
 // In which order a ray of each of four octants of directions meets the children, farthest first; the other
 // four meet them the other way round. Octants: y and z backwards or not, x forwards.
 void write_orders(WideNode& node, const CollapsedNode& from) {
+    constexpr IntLanes8 number{0, 1, 2, 3, 4, 5, 6, 7};
+    Lanes8 x{}, y{}, z{};
+    for (int k = 0; k < from.count; ++k) {
+        const Vec3 middle = from.child[static_cast<std::size_t>(k)].bounds.centroid();
+        x[k] = middle.x, y[k] = middle.y, z[k] = middle.z;
+    }
+    const Lanes8 nowhere = Lanes8{} - infinity;
     for (std::uint32_t octant = 0; octant < 4; ++octant) {
-        const Vec3 direction{1, octant & 1 ? -1.0f : 1.0f, octant & 2 ? -1.0f : 1.0f};
-        std::array<float, 8> distance;
-        distance.fill(-infinity);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(from.count); ++k) {
-            const Bounds3& b = from.child[k].bounds;
-            distance[k] = dot(direction, b.lo * 0.5f + b.hi * 0.5f);
-        }
-        std::array<std::uint32_t, 8> place;
-        // By insertion; equal ones stay in order.
-        for (std::uint32_t i = 0; i < 8; ++i) {
-            std::uint32_t k = i;
-            for (; k > 0 && distance[i] > distance[place[k - 1]]; --k) place[k] = place[k - 1];
-            place[k] = i;
-        }
+        Lanes8 distance = x + (octant & 1 ? -y : y) + (octant & 2 ? -z : z);
+        distance = number < from.count ? distance : nowhere;
+        // How many are farther; of equal ones the first counts as such.
+        IntLanes8 place{};
+        for (int k = 0; k < 8; ++k)
+            place -= (distance[k] > distance) | ((distance[k] == distance) & (k < number));
         std::uint32_t bits = 0;
-        for (std::uint32_t i = 0; i < 8; ++i) bits |= place[i] << (3 * i);
+        for (int k = 0; k < 8; ++k) bits |= static_cast<std::uint32_t>(k) << (3 * place[k]);
         for (std::uint32_t byte = 0; byte < 3; ++byte)
             node.order[octant][byte] = static_cast<std::uint8_t>(bits >> (8 * byte));
     }
@@ -140,12 +139,25 @@ class Writer {
             const std::size_t at = round_up(2 * wide_unit, alignof(WideNode));
             return write_leaf(memory, at, collapsed_.single_leaf).reference_at(at);
         }
-        parallel_for(collapsed_.nodes.size(), 512, [&](std::size_t i) { write_node_at(memory, i); });
+        parallel_ranges(collapsed_.nodes.size(), 512, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                for (int step = 0; step < 3; ++step)
+                    if (const std::size_t later = i + fetch_distance * static_cast<std::size_t>(3 - step);
+                        later < end)
+                        prefetch_triangles(collapsed_.nodes[later], step);
+                write_node_at(memory, i);
+            }
+        });
         return static_cast<std::uint32_t>(at_[0]);
     }
 
   private:
     LeafContents contents(const WideLeaf& leaf) const { return {tree_, primitives_, kinds_, leaf}; }
+    void prefetch_triangles(const CollapsedNode& node, int step) const {
+        for (const WideChild& child : node.children())
+            if (child.is_leaf() && !child.leaf.is_custom)
+                primitives_.prefetch_corners({&tree_.order[child.leaf.first], child.leaf.count}, step);
+    }
     LeafContents write_leaf(char* memory, std::size_t at, const WideLeaf& leaf) const {
         const LeafContents leaf_contents = contents(leaf);
         leaf_contents.write(memory + at, primitives_);

@@ -28,7 +28,7 @@ float leaf_cost(std::uint32_t count, const CollapseCosts& costs) {
 
 double cost_of(const CollapsedTree& wide, const Bounds3& root, const CollapseCosts& costs) {
     double sum = static_cast<double>(costs.node) * area(root);
-    for (const CollapsedNode& node : wide.nodes)
+    for (const CollapsedNode& node : wide.nodes.all())
         for (const WideChild& c : node.children())
             sum += area(c.bounds) *
                    static_cast<double>(c.is_leaf() ? leaf_cost(c.leaf.count, costs) : costs.node);
@@ -37,7 +37,7 @@ double cost_of(const CollapsedTree& wide, const Bounds3& root, const CollapseCos
 
 std::size_t leaves_of(const CollapsedTree& wide) {
     std::size_t n = 0;
-    for (const CollapsedNode& node : wide.nodes)
+    for (const CollapsedNode& node : wide.nodes.all())
         for (const WideChild& c : node.children()) n += c.is_leaf();
     return n;
 }
@@ -203,9 +203,9 @@ TEST(CollapsedTree, OneLeafStandsBelowARootOrAlone) {
     ASSERT_EQ(wide.nodes[0].count, 1);
     EXPECT_EQ(wide.nodes[0].child[0].leaf.count, 1u);
     CollapsedTree alone = collapse(tree, t, {}, ~0u);
-    EXPECT_TRUE(alone.nodes.empty());
+    EXPECT_EQ(alone.nodes.size(), 0u);
     EXPECT_EQ(alone.single_leaf.count, 1u);
-    EXPECT_TRUE(collapse(Tree{}, costs_by_primitive, {}).nodes.empty());
+    EXPECT_EQ(collapse(Tree{}, costs_by_primitive, {}).nodes.size(), 0u);
 }
 
 TEST(CollapsedTree, LeavesTooLargeAreSplitWhereTheyStand) {
@@ -214,7 +214,7 @@ TEST(CollapsedTree, LeavesTooLargeAreSplitWhereTheyStand) {
     for (std::uint32_t i = 0; i < 8; ++i) tree.order.push_back(i);
     CollapsedTree wide = collapse(tree, costs_by_primitive, {.width = 4, .leaf_size = 1});
     std::vector<int> seen(8, 0);
-    for (const CollapsedNode& node : wide.nodes)
+    for (const CollapsedNode& node : wide.nodes.all())
         for (const WideChild& c : node.children()) {
             EXPECT_EQ(c.bounds.hi.x, 1);
             ASSERT_LE(c.leaf.count, 1u);
@@ -233,7 +233,7 @@ TEST(CollapsedTree, LeavesThatMixKindsAreParted) {
     for (std::uint32_t i = 0; i < 8; ++i) tree.order.push_back(i);
     CollapsedTree wide = collapse(tree, t, {}, ~0u);
     std::vector<int> seen(8, 0);
-    for (const CollapsedNode& node : wide.nodes)
+    for (const CollapsedNode& node : wide.nodes.all())
         for (const WideChild& c : node.children())
             for (std::uint32_t k = 0; k < c.leaf.count; ++k) {
                 const std::uint32_t p = tree.order[c.leaf.first + k];

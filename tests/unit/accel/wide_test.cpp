@@ -137,7 +137,7 @@ void check_collapse(const Tree& tree, const CollapsedTree& collapsed, std::uint3
         for (std::uint32_t i = 0; i < leaf.count; ++i) ++seen[leaf.first + i];
     };
     if (collapsed.single_leaf.count > 0) note(collapsed.single_leaf);
-    for (const CollapsedNode& node : collapsed.nodes) {
+    for (const CollapsedNode& node : collapsed.nodes.all()) {
         EXPECT_GE(node.count, 2);
         EXPECT_LE(node.count, 8);
         for (std::size_t k = 0; k < static_cast<std::size_t>(node.count); ++k)
@@ -176,7 +176,7 @@ TEST(Collapse, FillsNodesAndLeaves) {
     Tree tree = sah_builder().build(t, t.boxes(), {.leaf_size = 1});
     CollapsedTree collapsed = collapse(tree, t, {}, wide_stack);
     double children = 0, leaves = 0;
-    for (const CollapsedNode& node : collapsed.nodes) {
+    for (const CollapsedNode& node : collapsed.nodes.all()) {
         children += node.count;
         for (std::size_t k = 0; k < static_cast<std::size_t>(node.count); ++k)
             leaves += node.child[k].is_leaf();
