@@ -87,6 +87,12 @@ std::string read_file(const std::filesystem::path& path, std::size_t max_bytes) 
     return gzipped ? decompress(bytes, max_bytes) : bytes;
 }
 
+std::filesystem::path real_path(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
+    return error ? path : real;
+}
+
 void write_atomically(const std::filesystem::path& target,
                       const std::function<void(const std::filesystem::path&)>& write) {
     // Same folder, same suffix (libraries choose the format by it), a name no other process takes.

@@ -1,4 +1,4 @@
-/// Files: read whole (gzip undone), written under a temporary name and renamed.
+/// Files: read whole (gzip undone), written under a temporary name and renamed; paths that are one file.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +14,10 @@ namespace alhazen {
 /// Throws std::runtime_error whose text says what failed ("no such file", "is a directory", "truncated gzip
 /// data", "larger than ... bytes when decompressed") without naming the file.
 std::string read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{16} << 30);
+
+/// One path for all the spellings of a file's: absolute, without "..", links followed as far as there are
+/// files. As it is where that cannot be found out.
+std::filesystem::path real_path(const std::filesystem::path& path);
 
 /// Calls write with a temporary path beside the target, then renames it over the target: readers see the old
 /// file or the whole new one. The temporary is removed when write throws. Throws std::runtime_error when the

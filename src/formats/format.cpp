@@ -34,8 +34,7 @@ std::string suffix_of(std::filesystem::path file) {
 SceneDescription read_pbrt(std::string_view text, const std::filesystem::path& file,
                            const std::filesystem::path& base_folder, Messages& messages) {
     auto name = std::make_shared<const std::string>(file.empty() ? "<string>" : file.string());
-    std::error_code ignored;
-    std::filesystem::path real = file.empty() ? file : std::filesystem::weakly_canonical(file, ignored);
+    std::filesystem::path real = file.empty() ? file : real_path(file);
     PbrtBuilder builder(file, base_folder, messages);
     Place end = PbrtParser(builder, base_folder).parse(text, std::move(name), real);
     return builder.finish(std::move(end));

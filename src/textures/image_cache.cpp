@@ -1,27 +1,20 @@
 #include "textures/image_cache.h"
 
+#include "base/file.h"
 #include "image/codec.h"
 
 namespace alhazen {
 
-ImageCache::ImageKey ImageCache::key(const ImageSource& source) {
-    // Two spellings of one path are one file.
-    std::error_code error;
-    std::filesystem::path path = std::filesystem::weakly_canonical(source.path, error);
-    return {(error ? source.path : path).string(), source.encoding.kind, source.encoding.gamma};
+namespace {
+
+std::size_t size_in_memory(const Image& image) {
+    return image.values().size() * sizeof(float);
 }
 
-template <class T, class Key, class Make>
-std::shared_ptr<const T> ImageCache::once(Entries<Key, T>& entries, const Key& key, const Make& make) {
-    std::unique_lock lock(mutex_);
-    std::shared_ptr<Entry<T>> entry = entries.try_emplace(key, std::make_shared<Entry<T>>()).first->second;
-    lock.unlock();
-    std::lock_guard making(entry->making);
-    if (entry->made) return entry->made;
-    std::shared_ptr<const T> made = make();
-    lock.lock();
-    entry->made = made;
-    return made;
+} // namespace
+
+ImageCache::ImageKey ImageCache::key(const ImageSource& source) {
+    return {real_path(source.path), source.encoding.kind, source.encoding.gamma};
 }
 
 void ImageCache::limit_memory(std::size_t bytes) {
@@ -33,7 +26,7 @@ void ImageCache::limit_memory(std::size_t bytes) {
 std::shared_ptr<const Image> ImageCache::image(const ImageSource& source) {
     const ImageKey image_key = key(source);
     bool is_new = false;
-    auto image = once(images_, image_key, [&] {
+    auto image = images_.get(image_key, [&] {
         auto read = std::make_shared<const Image>(read_image(source.path, {source.encoding}));
         ++decoded_;
         is_new = true;
@@ -48,20 +41,20 @@ void ImageCache::drop_images(const ImageKey& newest) {
     std::lock_guard lock(mutex_);
     in_order_.push_back(newest);
     auto size_of = [&](const ImageKey& image_key) {
-        auto found = images_.find(image_key);
-        return found == images_.end() ? 0 : found->second->made->values().size() * sizeof(float);
+        const auto image = images_.find(image_key);
+        return image ? size_in_memory(*image) : 0;
     };
     std::size_t sum = 0;
     for (const ImageKey& kept : in_order_) sum += size_of(kept);
     while (sum > limit_) {
         sum -= size_of(in_order_.front());
-        images_.erase(in_order_.front());
+        images_.forget(in_order_.front());
         in_order_.pop_front();
     }
 }
 
 std::shared_ptr<const FloatTexels> ImageCache::numbers(const ImageSource& source) {
-    return once(numbers_, std::tuple(key(source), source.wrap), [&] {
+    return numbers_.get({key(source), source.wrap}, [&] {
         auto texels = maker_.numbers(*image(source), source.wrap);
         std::lock_guard lock(mutex_);
         made_numbers_.push_back(texels);
@@ -72,7 +65,7 @@ std::shared_ptr<const FloatTexels> ImageCache::numbers(const ImageSource& source
 std::shared_ptr<const ColorTexels> ImageCache::colors(const ImageSource& source, TexelAdjustment adjustment,
                                                       SpectrumRole role, ColorMode mode) {
     const ColorKey color_key{key(source), source.wrap, adjustment.scale, adjustment.invert, role, mode};
-    return once(colors_, color_key, [&] {
+    return colors_.get(color_key, [&] {
         auto texels = maker_.colors(*image(source), source.wrap, adjustment, role, mode);
         std::lock_guard lock(mutex_);
         made_colors_.push_back(texels);
@@ -82,17 +75,16 @@ std::shared_ptr<const ColorTexels> ImageCache::colors(const ImageSource& source,
 
 void ImageCache::clear() {
     std::lock_guard lock(mutex_);
-    images_.clear();
     in_order_.clear();
-    numbers_.clear();
-    colors_.clear();
+    images_.forget_all();
+    numbers_.forget_all();
+    colors_.forget_all();
 }
 
 std::size_t ImageCache::bytes() const {
     std::lock_guard lock(mutex_);
     std::size_t sum = tiles_ ? tiles_->bytes() : 0;
-    for (const auto& [source, entry] : images_)
-        if (entry->made) sum += entry->made->values().size() * sizeof(float);
+    images_.for_each([&](const Image& image) { sum += size_in_memory(image); });
     for (const auto& texels : made_numbers_)
         if (auto held = texels.lock()) sum += held->bytes();
     for (const auto& texels : made_colors_)

@@ -4,12 +4,12 @@
 #include <atomic>
 #include <deque>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <tuple>
 #include <vector>
 
+#include "base/made_once.h"
 #include "textures/texels.h"
 
 namespace alhazen {
@@ -44,20 +44,9 @@ class ImageCache {
     void throw_if_failed() const;
 
   private:
-    using ImageKey = std::tuple<std::string, Encoding::Kind, float>;
+    using ImageKey = std::tuple<std::filesystem::path, Encoding::Kind, float>;
     using ColorKey = std::tuple<ImageKey, WrapMode, float, bool, SpectrumRole, ColorMode>;
     static ImageKey key(const ImageSource& source);
-
-    template <class T>
-    struct Entry {
-        std::mutex making;
-        std::shared_ptr<const T> made; ///< written under both mutexes, read under one
-    };
-    template <class Key, class T>
-    using Entries = std::map<Key, std::shared_ptr<Entry<T>>>;
-    /// What make gives, called once for a key unless it throws.
-    template <class T, class Key, class Make>
-    std::shared_ptr<const T> once(Entries<Key, T>& entries, const Key& key, const Make& make);
 
     void drop_images(const ImageKey& newest);
 
@@ -65,10 +54,10 @@ class ImageCache {
     std::shared_ptr<TileCache> tiles_; ///< nullptr: no limit
     std::size_t limit_ = 0;
     std::deque<ImageKey> in_order_; ///< of images_, where there is a limit
-    mutable std::mutex mutex_;
-    Entries<ImageKey, Image> images_;
-    Entries<std::tuple<ImageKey, WrapMode>, FloatTexels> numbers_;
-    Entries<ColorKey, ColorTexels> colors_;
+    MadeOnce<ImageKey, Image> images_;
+    MadeOnce<std::tuple<ImageKey, WrapMode>, FloatTexels> numbers_;
+    MadeOnce<ColorKey, ColorTexels> colors_;
+    mutable std::mutex mutex_; ///< of in_order_ and what follows
     // Everything made, forgotten or not, for as long as a texture holds it.
     std::vector<std::weak_ptr<const FloatTexels>> made_numbers_;
     std::vector<std::weak_ptr<const ColorTexels>> made_colors_;

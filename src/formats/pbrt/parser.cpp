@@ -175,8 +175,7 @@ void PbrtParser::option(Place place) {
 
 void PbrtParser::resolve_and_parse(const std::string& name, const Place& place) {
     std::filesystem::path path = base_folder_ / std::filesystem::path(name);
-    std::error_code ignored;
-    std::filesystem::path real = std::filesystem::weakly_canonical(path, ignored);
+    std::filesystem::path real = real_path(path);
     for (const OpenFile& file : open_)
         if (!file.path.empty() && file.path == real)
             throw SyntaxError(place, fmt::format("\"{}\" includes itself", printable(name)));

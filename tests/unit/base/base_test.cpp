@@ -184,6 +184,23 @@ TEST(Messages, Ordinals) {
     EXPECT_EQ(ordinal(1022), "1022nd");
 }
 
+TEST(File, SpellingsOfAPathAreOne) {
+    const auto folder = std::filesystem::temp_directory_path() / "alhazen-real-path-test";
+    std::filesystem::create_directories(folder / "inner");
+    write_file(folder / "a.txt", "hello");
+    std::filesystem::create_symlink(folder / "a.txt", folder / "link.txt");
+    const auto real = real_path(folder / "a.txt");
+    EXPECT_TRUE(real.is_absolute());
+    EXPECT_EQ(real_path(folder / "inner" / ".." / "." / "a.txt"), real);
+    EXPECT_EQ(real_path(folder / "link.txt"), real);
+    EXPECT_NE(real_path(folder / "none.txt"), real);
+    EXPECT_EQ(real_path(folder / "inner" / ".." / "none.txt"), real_path(folder / "none.txt"));
+    // A link in a circle leads nowhere.
+    std::filesystem::create_symlink(folder / "circle", folder / "circle");
+    EXPECT_EQ(real_path(folder / "circle"), folder / "circle");
+    std::filesystem::remove_all(folder);
+}
+
 TEST(File, WritesAtomicallyAndReadsBack) {
     auto folder = std::filesystem::temp_directory_path() / "alhazen-file-test";
     std::filesystem::create_directories(folder);
