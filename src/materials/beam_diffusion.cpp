@@ -129,7 +129,7 @@ DiffusionTable::DiffusionTable(float g, float eta)
     }
     const double moment1 = fresnel_moment(static_cast<double>(eta), 1, true);
     const double moment2 = fresnel_moment(static_cast<double>(eta), 2, true);
-    parallel_for(albedo_count, 4, [&](std::size_t i) {
+    auto tabulate = [&](std::size_t i) {
         const ScatteringMatter matter{static_cast<double>(albedos_[i]), static_cast<double>(g),
                                       static_cast<double>(eta)};
         const Diffusion diffusion(matter, moment1, moment2);
@@ -145,6 +145,10 @@ DiffusionTable::DiffusionTable(float g, float eta)
         if (effective_[i] <= 1) return;
         for (float& v : row) v /= effective_[i];
         effective_[i] = integrate_spline(radii_, row, cdf);
+    };
+    // Who shares tables holds a lock while one is made.
+    parallel_ranges(albedo_count, 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) tabulate(i);
     });
 }
 

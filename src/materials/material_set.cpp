@@ -6,6 +6,7 @@
 
 #include "describe/build_apart.h"
 #include "materials/forced_diffuse.h"
+#include "materials/material_tables.h"
 
 namespace alhazen {
 
@@ -104,6 +105,7 @@ class MaterialSet::Builder {
 void MaterialSet::build(const std::vector<Node>& nodes, BuildContext& context) {
     list_.clear();
     by_name_.clear();
+    tables_ = std::make_shared<MaterialTables>();
     context.materials = this;
     Builder(*this, nodes, context).run();
 }
@@ -118,6 +120,10 @@ std::vector<std::string> MaterialSet::names() const {
     for (const auto& [name, index] : by_name_) names.push_back(name);
     std::sort(names.begin(), names.end());
     return names;
+}
+
+std::shared_ptr<MaterialTables> shared_tables(const BuildContext& context) {
+    return context.materials ? context.materials->tables() : std::make_shared<MaterialTables>();
 }
 
 } // namespace alhazen

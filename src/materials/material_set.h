@@ -10,6 +10,8 @@
 
 namespace alhazen {
 
+class MaterialTables; // materials/material_tables.h
+
 class MaterialSet {
   public:
     /// Makes what is built from here on matte (see forced_diffuse()).
@@ -27,12 +29,19 @@ class MaterialSet {
     bool has(const std::string& name) const { return by_name_.count(name) != 0; }
     std::vector<std::string> names() const;
     std::size_t size() const { return list_.size(); }
+    /// What its materials share; nullptr before the first build, new with each.
+    const std::shared_ptr<MaterialTables>& tables() const { return tables_; }
 
   private:
     class Builder;
     std::vector<std::unique_ptr<Material>> list_;
     std::unordered_map<std::string, std::size_t> by_name_;
+    std::shared_ptr<MaterialTables> tables_;
     bool is_diffuse_forced_ = false;
 };
+
+/// For a material that is being built: the tables of context.materials, or of its own where it belongs to no
+/// set.
+std::shared_ptr<MaterialTables> shared_tables(const BuildContext& context);
 
 } // namespace alhazen

@@ -7,10 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "base/file.h"
 #include "materials/fresnel.h"
-#include "materials/material.h"
-#include "materials/measured_data.h"
+#include "materials/material_set.h"
+#include "materials/material_tables.h"
 
 namespace alhazen {
 
@@ -135,8 +134,7 @@ struct Measured final : Material {
     }
     void finish(const Node& node, BuildContext& context) {
         try {
-            const TensorFile file(read_file(context.resolve(filename)));
-            data = std::make_shared<const MeasuredData>(file, context.color_mode);
+            data = shared_tables(context)->measured(context.resolve(filename), context.color_mode);
         } catch (const std::runtime_error& e) {
             context.messages.add_error(node.place_of("filename"),
                                        fmt::format("measured BSDF file \"{}\": {}", filename, e.what()));

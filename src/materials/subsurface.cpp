@@ -7,7 +7,8 @@
 
 #include "materials/bssrdf.h"
 #include "materials/dielectric_bsdf.h"
-#include "materials/material.h"
+#include "materials/material_set.h"
+#include "materials/material_tables.h"
 #include "materials/presets.h"
 #include "materials/roughness.h"
 
@@ -72,7 +73,7 @@ struct Subsurface final : Material {
             use_name(node, context);
         else if (!sigma_a && !reflectance)
             use_preset({{2.55f, 3.21f, 3.77f}, {0.0011f, 0.0024f, 0.014f}});
-        table = std::make_shared<const DiffusionTable>(g, eta);
+        table = shared_tables(context)->diffusion(g, eta);
     }
 
     bool needs_parameters() const override {
