@@ -11,6 +11,7 @@
 
 #include "base/file.h"
 #include "image/codec.h"
+#include "tests/reference/mitsuba_slides.h"
 
 namespace alhazen::testing {
 
@@ -147,8 +148,8 @@ std::string grid_attributes(const fs::path& file) {
 
 class SceneCopy {
   public:
-    SceneCopy(fs::path from, const fs::path& shared, fs::path to)
-        : from_(std::move(from)), to_(std::move(to)),
+    SceneCopy(fs::path from, const fs::path& shared, fs::path to, ColorMode mode)
+        : from_(std::move(from)), to_(std::move(to)), mode_(mode),
           places_{shared / "common/meshes", shared / "common/textures",
                   shared / "tests/scenes/participating_media/meshes",
                   shared / "tests/scenes/participating_media/textures"} {}
@@ -167,7 +168,7 @@ class SceneCopy {
         } else if (path.extension() == ".exr") {
             WriteOptions options;
             options.depth = FloatDepth::single;
-            write_image(to_ / name, enlarged_sky(read_image(find(name))), options);
+            write_image(to_ / name, light_picture(path.stem().string()), options);
         } else {
             write_image(to_ / name, without_alpha(read_image(find(name))));
         }
@@ -183,6 +184,20 @@ class SceneCopy {
             copy((*i)[1].str());
     }
 
+    Image light_picture(const std::string& stem) const {
+        auto picture = [&](std::string_view what) {
+            return read_image(find(stem.substr(0, stem.size() - what.size()) + ".bmp"));
+        };
+        auto shining = [&](std::string_view what) {
+            return mode_ == ColorMode::rgb ? picture(what) : in_even_light(picture(what));
+        };
+        if (stem == "white_spot") return spot_slide({});
+        if (stem.ends_with("_spot")) return spot_slide(picture("_spot"));
+        if (stem.ends_with("_projector")) return projector_slide(shining("_projector"));
+        if (stem.ends_with("_panel")) return panel_picture(shining("_panel"));
+        return enlarged_sky(read_image(find(stem + ".exr")));
+    }
+
     fs::path find(const std::string& name) const {
         for (const fs::path& place : places_)
             if (fs::exists(place / name)) return place / name;
@@ -190,15 +205,17 @@ class SceneCopy {
     }
 
     fs::path from_, to_;
+    ColorMode mode_;
     std::array<fs::path, 4> places_;
     std::set<std::string> done_;
 };
 
 } // namespace
 
-fs::path copy_mitsuba_scene(const fs::path& scene, const fs::path& shared, const fs::path& folder) {
+fs::path copy_mitsuba_scene(const fs::path& scene, const fs::path& shared, const fs::path& folder,
+                            ColorMode mode) {
     fs::create_directories(folder);
-    SceneCopy(scene.parent_path(), shared, folder).copy(scene.filename().string());
+    SceneCopy(scene.parent_path(), shared, folder, mode).copy(scene.filename().string());
     return folder / scene.filename();
 }
 

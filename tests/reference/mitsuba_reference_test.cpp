@@ -13,7 +13,6 @@
 /// - homo_area_light, homo_emitter_inside_medium, homo_obj_inside_medium, surf_area_light: passing through a
 ///   thin dielectric is no bounce in Mitsuba, and what is inside is of rough plastic;
 /// - hetero_sigmat_albedo multiplies two grids, which are blended each by itself;
-/// - various_emitters: spots that fade linearly with the angle, and spots with textures;
 /// - spectra that are made of coloured media's rgb values: there are several such for a colour.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -79,8 +78,8 @@ Pictures make_pictures(const MitsubaScene& scene, ColorMode mode) {
     settings.spp = spp;
     settings.color = mode;
     Messages messages;
-    auto world = build_world(read_scene(copy_mitsuba_scene(source, shared, folder_of(scene, mode)), messages),
-                             settings, messages);
+    const fs::path copy = copy_mitsuba_scene(source, shared, folder_of(scene, mode), mode);
+    auto world = build_world(read_scene(copy, messages), settings, messages);
     Pictures pictures;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         world->seed = seed;
@@ -210,6 +209,7 @@ const MitsubaScene scenes[] = {
     {"mirrors", "infinite_mirrors/refs/scene"},
     {"instances", "instancing/refs/test_instancing"},
     {"orthographic", "orthographic_sensor/refs/test_orthographic"},
+    {"emitters", "various_emitters/refs/test_various_emitters"},
     {"texels", "texture_interp/refs/test_texture_interp", both, {{{41, 0}, {87, 128}}}},
     {"milky_ball", "participating_media/refs/test_homo_null_envmap", rgb},
     {"coloured_ball", "participating_media/refs/test_homo_spectral_sigmat", rgb},
