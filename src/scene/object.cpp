@@ -1,5 +1,7 @@
 #include "scene/object.h"
 
+#include <unordered_set>
+
 #include "base/hash.h"
 #include "base/threads.h"
 
@@ -96,9 +98,18 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
 }
 
 bool Object::moves() const {
-    return std::any_of(instances_.begin(), instances_.end(), [](const PlacedObject& instance) {
-        return instance.movement || instance.object->moves();
-    });
+    // Each object is asked once: nested instances lead to it in more ways than could be counted.
+    std::vector<const Object*> to_ask{this};
+    std::unordered_set<const Object*> known{this};
+    while (!to_ask.empty()) {
+        const Object* object = to_ask.back();
+        to_ask.pop_back();
+        for (const PlacedObject& instance : object->instances_) {
+            if (instance.movement) return true;
+            if (known.insert(instance.object).second) to_ask.push_back(instance.object);
+        }
+    }
+    return false;
 }
 
 void Object::rebuild(const AccelChoice& accel) {
