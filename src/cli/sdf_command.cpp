@@ -1,4 +1,4 @@
-/// alhazen sdf: a mesh becomes a grid of signed distances.
+/// alhazen sdf: a mesh, or all surfaces of a scene, become a grid of signed distances.
 #include <algorithm>
 #include <atomic>
 #include <csignal>
@@ -11,8 +11,9 @@
 #include "cli/commands.h"
 #include "cli/outputs.h"
 #include "cli/terminal.h"
+#include "formats/format.h"
 #include "formats/grids.h"
-#include "formats/ply.h"
+#include "render/surface_triangles.h"
 #include "sdf/mesh_grid.h"
 
 namespace alhazen {
@@ -26,10 +27,11 @@ extern "C" void on_sdf_interrupt(int) {
 }
 
 struct SdfOptions {
-    std::string mesh, output;
+    std::string input, output;
     MeshGridOptions grid;
+    SurfaceOptions surfaces;
     int threads = 0;
-    bool quiet = false;
+    bool lenient = false, quiet = false;
 };
 
 // Says what is wrong with the output before the work rather than after it.
@@ -46,19 +48,28 @@ void check_output(const std::string& file) {
     check_output_folder(file);
 }
 
-std::vector<Corners> read_triangles(const std::string& file) {
+bool is_mesh(std::filesystem::path file) {
+    if (file.extension() == ".gz") file = file.stem();
+    return grid_suffix(file) == ".ply";
+}
+
+std::vector<Corners> read_mesh(const std::string& file) {
     try {
-        MeshData mesh = read_ply(file);
-        split_quads(mesh);
-        if (mesh.indices.empty()) throw std::runtime_error("it holds no triangles");
-        std::vector<Corners> triangles;
-        auto corner = [&](std::size_t i) { return mesh.P[static_cast<std::size_t>(mesh.indices[i])]; };
-        for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-            triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});
-        return triangles;
+        return mesh_triangles(file);
     } catch (const std::exception& e) {
         throw std::runtime_error(fmt::format("{}: {}", file, e.what()));
     }
+}
+
+std::vector<Corners> read_surfaces(const SdfOptions& options) {
+    Messages messages;
+    messages.lenient = options.lenient;
+    SurfaceOptions surfaces = options.surfaces;
+    surfaces.cells = options.grid.resolution;
+    auto triangles = surface_triangles(read_scene(options.input, messages), surfaces, messages);
+    if (!options.quiet)
+        for (const Message& m : messages.warnings()) fmt::print(stderr, "{}\n", m.full_text());
+    return triangles;
 }
 
 int run_sdf(SdfOptions& options) {
@@ -66,10 +77,10 @@ int run_sdf(SdfOptions& options) {
     bool is_dense = grid_suffix(options.output) == ".vol";
     if (is_dense) options.grid.is_full = true;
     bool is_drawn = !options.quiet && stderr_is_terminal();
-    std::signal(SIGINT, on_sdf_interrupt);
     GridData data;
     with_threads(options.threads, [&] {
-        MeshDistance mesh(read_triangles(options.mesh));
+        MeshDistance mesh(is_mesh(options.input) ? read_mesh(options.input) : read_surfaces(options));
+        std::signal(SIGINT, on_sdf_interrupt);
         data = sample_mesh(mesh, options.grid, [&](double fraction) {
             if (is_drawn) {
                 fmt::print(stderr, "\rsampling: {:3.0f} %\x1b[K", 100 * fraction);
@@ -101,8 +112,11 @@ int run_sdf(SdfOptions& options) {
 
 void add_sdf_command(CLI::App& app, Action& action) {
     auto options = std::make_shared<SdfOptions>();
-    CLI::App* command = app.add_subcommand("sdf", "make a grid of signed distances of a mesh");
-    command->add_option("MESH", options->mesh, "mesh file (.ply)")->required();
+    CLI::App* command = app.add_subcommand("sdf", "make a grid of signed distances of a mesh or a scene");
+    command
+        ->add_option("MESH_OR_SCENE", options->input,
+                     "mesh file (.ply), or scene file (.pbrt), whose surfaces become one grid")
+        ->required();
     command
         ->add_option("-o,--output", options->output,
                      "grid file: .vol (dense) or .nvdb (sparse, where built with NanoVDB)")
@@ -112,6 +126,11 @@ void add_sdf_command(CLI::App& app, Action& action) {
         ->add_option("--resolution", options->grid.resolution, "cells along the longest side (default 128)")
         ->check(CLI::Range(4, 2048))
         ->type_name("N");
+    command
+        ->add_option("--max-triangles", options->surfaces.most_triangles,
+                     "most that a scene's surfaces may become, instances repeated (default 33554432)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("N");
     command->add_option("--band", options->grid.band, "cells on each side of the surface (default 3)")
         ->check(CLI::Range(2, 64))
         ->type_name("N");
@@ -120,6 +139,8 @@ void add_sdf_command(CLI::App& app, Action& action) {
     command->add_option("--threads", options->threads, "how many threads (default: all)")
         ->check(CLI::Range(0, 4096))
         ->type_name("N");
+    command->add_flag("--lenient", options->lenient,
+                      "replace what is unknown in a scene and say so, instead of stopping");
     command->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
     command->callback([options, &action] { action = [options] { return run_sdf(*options); }; });
 }

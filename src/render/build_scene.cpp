@@ -16,8 +16,9 @@ namespace {
 class SceneBuilder {
   public:
     SceneBuilder(SceneDescription& description, const MaterialSet& materials, const MediumSet& media,
-                 const AccelChoice& accel, BuildContext& context)
-        : description_(description), materials_(materials), media_(media), accel_(accel), context_(context) {}
+                 const AccelChoice& accel, BuildContext& context, ShapeSources* sources)
+        : description_(description), materials_(materials), media_(media), accel_(accel), context_(context),
+          sources_(sources) {}
 
     std::unique_ptr<Scene> build() {
         build_lights();
@@ -161,6 +162,8 @@ class SceneBuilder {
         });
         for (std::size_t i = 0; i < shapes.size(); ++i) {
             if (!shapes[i].shape) continue;
+            const Node& source = node.shapes[i].node;
+            if (sources_) sources_->emplace(shapes[i].shape.get(), ShapeSource{source.type, source.place});
             shapes[i].material = material_of(node.shapes[i]);
             shapes[i].media = {medium(node.shapes[i].inside_medium, node.shapes[i]),
                                medium(node.shapes[i].outside_medium, node.shapes[i])};
@@ -221,6 +224,7 @@ class SceneBuilder {
     const MediumSet& media_;
     const AccelChoice& accel_;
     BuildContext& context_;
+    ShapeSources* sources_;
     std::vector<std::unique_ptr<Light>> lights_;
     std::vector<std::unique_ptr<Object>> objects_;
     std::vector<std::unique_ptr<Object>> moving_; ///< of shapes that move
@@ -232,8 +236,9 @@ class SceneBuilder {
 } // namespace
 
 std::unique_ptr<Scene> build_scene(SceneDescription& description, const MaterialSet& materials,
-                                   const MediumSet& media, const AccelChoice& accel, BuildContext& context) {
-    return SceneBuilder(description, materials, media, accel, context).build();
+                                   const MediumSet& media, const AccelChoice& accel, BuildContext& context,
+                                   ShapeSources* sources) {
+    return SceneBuilder(description, materials, media, accel, context, sources).build();
 }
 
 } // namespace alhazen

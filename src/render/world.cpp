@@ -8,7 +8,6 @@
 #include "formats/grids.h"
 #include "formats/ply.h"
 #include "render/accelerator.h"
-#include "render/build_scene.h"
 #include "render/flight.h"
 #include "sdf/sdf_set.h"
 
@@ -205,7 +204,7 @@ void warn_of_unseen(const World& world, const Node& integrator, Messages& messag
 }
 
 void add_scene(World& world, SceneDescription& description, const CameraNode& camera,
-               const AccelChoice& accel, BuildContext& context) {
+               const AccelChoice& accel, BuildContext& context, ShapeSources* sources) {
     Node fallback;
     fallback.type = "diffuse";
     description.materials.push_back(fallback);
@@ -217,7 +216,7 @@ void add_scene(World& world, SceneDescription& description, const CameraNode& ca
     world.materials.build(description.materials, context);
     context.materials = &world.materials;
     world.media.build(description.media, context);
-    world.scene = build_scene(description, world.materials, world.media, accel, context);
+    world.scene = build_scene(description, world.materials, world.media, accel, context, sources);
     world.textures.forget_images();
     if (!world.scene) return;
     world.scene->set_medium_at_camera(world.media.find(camera.medium, camera.node.place, context.messages));
@@ -235,7 +234,7 @@ void add_scene(World& world, SceneDescription& description, const CameraNode& ca
 } // namespace
 
 std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings,
-                                   Messages& messages) {
+                                   Messages& messages, ShapeSources* sources) {
     description.integrator = with_default(std::move(description.integrator), "path");
     if (!settings.integrator.empty())
         description.integrator = replaced_kind(integrator_kinds(), std::move(description.integrator),
@@ -280,7 +279,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     check_surfaces(*world, description.integrator, description.film, context);
 
     if (settings.texture_memory) world->textures.limit_memory(*settings.texture_memory);
-    add_scene(*world, description, *camera, choose_accel(description, settings, context), context);
+    add_scene(*world, description, *camera, choose_accel(description, settings, context), context, sources);
     messages.throw_if_errors();
     if (!world->options.disabletexturefiltering)
         world->scene->set_pixel_cone(pixel_cone(*world->camera, world->film->resolution(), world->spp));

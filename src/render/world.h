@@ -10,6 +10,7 @@
 #include "integrators/integrator.h"
 #include "materials/material_set.h"
 #include "media/medium_set.h"
+#include "render/build_scene.h"
 #include "render/scene_options.h"
 #include "render/settings.h"
 #include "samplers/sampler.h"
@@ -40,9 +41,10 @@ struct World {
     }
 };
 
-/// Builds the world; throws SceneError with every error found. Warnings stay in messages.
+/// Builds the world; throws SceneError with every error found. Warnings stay in messages. sources as for
+/// build_scene.
 std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings,
-                                   Messages& messages);
+                                   Messages& messages, ShapeSources* sources = nullptr);
 
 /// Applies "family.parameter=value", "material.NAME.parameter=value", "light.NUMBER.parameter=value",
 /// "texture.NAME.parameter=value" or "camera.parameter=value" to the description. Errors go to messages.

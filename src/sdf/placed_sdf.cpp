@@ -24,8 +24,10 @@ double make_orthogonal(std::array<Vec3d, 3>& columns, std::size_t p, std::size_t
 
 } // namespace
 
+namespace {
+
 // One-sided Jacobi rotations (Hestenes 1958): the columns' lengths become the singular values.
-double least_stretch(const Matrix4& m) {
+std::array<double, 3> stretches(const Matrix4& m) {
     std::array<Vec3d, 3> columns;
     for (std::size_t j = 0; j < 3; ++j) columns[j] = {m.m[0][j], m.m[1][j], m.m[2][j]};
     for (int sweep = 0; sweep < 60; ++sweep) {
@@ -33,8 +35,19 @@ double least_stretch(const Matrix4& m) {
             make_orthogonal(columns, 0, 1) + make_orthogonal(columns, 0, 2) + make_orthogonal(columns, 1, 2);
         if (off < 1e-15) break;
     }
-    double least = std::min({length(columns[0]), length(columns[1]), length(columns[2])});
-    return least * (1 - 1e-14);
+    return {length(columns[0]), length(columns[1]), length(columns[2])};
+}
+
+} // namespace
+
+double least_stretch(const Matrix4& m) {
+    const std::array<double, 3> all = stretches(m);
+    return *std::min_element(all.begin(), all.end()) * (1 - 1e-14);
+}
+
+double largest_stretch(const Matrix4& m) {
+    const std::array<double, 3> all = stretches(m);
+    return *std::max_element(all.begin(), all.end()) * (1 + 1e-14);
 }
 
 PlacedSdf::PlacedSdf(std::shared_ptr<const Sdf> sdf, const Matrix4& parent_from_node)

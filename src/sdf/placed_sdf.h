@@ -53,6 +53,8 @@ class PlacedSdf {
 /// The least factor by which an affine transformation stretches lengths: its smallest singular value, rounded
 /// down.
 double least_stretch(const Matrix4& m);
+/// The largest one, rounded up.
+double largest_stretch(const Matrix4& m);
 
 /// Nodes that an operator is applied to, by name.
 struct SdfChildren {

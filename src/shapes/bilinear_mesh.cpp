@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "accel/primitives.h"
 #include "base/hash.h"
 #include "math/density.h"
 #include "shapes/mesh_arrays.h"
@@ -100,6 +101,23 @@ void BilinearMesh::set_tangents(std::uint32_t patch, const BilinearPatch& g, Vec
     }
     hit.dpdu = Vec3(dpdu);
     hit.dpdv = Vec3(dpdv);
+}
+
+bool BilinearMesh::tessellate(double tolerance, const TriangleSink& out) const {
+    for (std::uint32_t patch = 0; patch < primitive_count(); ++patch) {
+        const BilinearPatch g = geometry(patch);
+        const int n = g.cuts(tolerance);
+        auto at = [&](int i, int j) {
+            return Vec3(g.at(static_cast<double>(i) / n, static_cast<double>(j) / n));
+        };
+        auto add = [&](Vec3 a, Vec3 b, Vec3 c) { out(is_turned_ ? Corners{a, c, b} : Corners{a, b, c}); };
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                add(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+                add(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+            }
+    }
+    return true;
 }
 
 // The parameters are drawn by the bilinear mean of the area at the corners, which is nowhere below the area

@@ -24,6 +24,7 @@ struct BilinearMesh : Shape {
     float area(std::uint32_t patch) const final { return static_cast<float>(geometry(patch).area()); }
     ShapeSample sample(std::uint32_t patch, Vec2 u) const final;
     NormalCone normals(std::uint32_t patch) const final;
+    bool tessellate(double tolerance, const TriangleSink& out) const final;
     std::size_t bytes() const final {
         return array_bytes(P) + array_bytes(N) + array_bytes(uv) + array_bytes(indices);
     }

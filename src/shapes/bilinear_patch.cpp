@@ -14,6 +14,23 @@ Vec3d BilinearPatch::normal(double u, double v) const {
     return size > 0 ? n * (1 / size) : Vec3d{0, 0, 1};
 }
 
+// A piece of 1/n x 1/n is off the two triangles between its corners by at most a quarter of its own twist,
+// the patch's over n^2, which is one vector everywhere. Along the surface it does no harm, unless the patch
+// is folded.
+int BilinearPatch::cuts(double tolerance) const {
+    const Vec3d twist = p00 - p10 - p01 + p11, middle = area_vector(0.5, 0.5);
+    double height = 0;
+    bool is_folded = false;
+    for (double u : {0.0, 0.5, 1.0})
+        for (double v : {0.0, 0.5, 1.0}) {
+            height = std::max(height, std::abs(dot(twist, normal(u, v))));
+            is_folded = is_folded || dot(area_vector(u, v), middle) < 0;
+        }
+    if (is_folded) height = length(twist);
+    constexpr double most = 4096;
+    return static_cast<int>(std::clamp(std::ceil(std::sqrt(0.25 * height / tolerance)), 1.0, most));
+}
+
 // Where the area vectors of the corners all point the same way, their length is linear too, and its mean is
 // the mean over the corners. Else Gauss-Legendre with four points in each of four strips, both ways.
 double BilinearPatch::area() const {

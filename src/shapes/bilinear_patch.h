@@ -21,6 +21,9 @@ struct BilinearPatch {
     /// Unit normal along dpdu x dpdv; where that vanishes (a corner of a patch with two equal corners), its
     /// limit from inside.
     Vec3d normal(double u, double v) const;
+    /// Into how many strips each way it must be cut so that two triangles in place of each piece stay within
+    /// tolerance of it; 1 where it is flat.
+    int cuts(double tolerance) const;
     /// Numerically, to about seven digits for patches that are not folded.
     double area() const;
 

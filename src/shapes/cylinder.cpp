@@ -66,6 +66,11 @@ struct Cylinder final : QuadricShape<Cylinder> {
         return {r_ * std::cos(phi), r_ * std::sin(phi), z_min_ + (z_max_ - z_min_) * u.x};
     }
     double object_area() const { return (z_max_ - z_min_) * r_ * phi_max_; }
+    Vec3d at_parameters(double u, double v) const {
+        const double phi = phi_max_ * u;
+        return {r_ * std::cos(phi), r_ * std::sin(phi), std::lerp(z_min_, z_max_, v)};
+    }
+    Arcs arcs() const { return {r_, 0, 0}; }
 
   private:
     double r_ = 1, z_min_ = -1, z_max_ = 1;

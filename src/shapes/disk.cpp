@@ -71,6 +71,11 @@ struct Disk final : QuadricShape<Disk> {
         return {across * std::cos(phi), across * std::sin(phi), z_};
     }
     double object_area() const { return phi_max_ * 0.5 * (r_ * r_ - hole_ * hole_); }
+    Vec3d at_parameters(double u, double v) const {
+        const double phi = phi_max_ * u, across = std::lerp(r_, hole_, v);
+        return {across * std::cos(phi), across * std::sin(phi), z_};
+    }
+    Arcs arcs() const { return {r_, 0, 0}; }
 
   private:
     double z_ = 0, r_ = 1, hole_ = 0;

@@ -4,10 +4,12 @@
 
 #include <optional>
 
+#include "accel/primitives.h"
 #include "base/bounds.h"
 #include "base/ray.h"
 #include "describe/context.h"
 #include "describe/scene_description.h"
+#include "sdf/placed_sdf.h"
 
 namespace alhazen {
 
@@ -42,6 +44,14 @@ class Placement {
     double solid_angle_ratio(Vec3 w) const;
     /// Whether all directions are stretched alike.
     bool is_similarity() const { return is_similarity_; }
+    /// No length grows by more than this.
+    double largest_stretch() const { return alhazen::largest_stretch(world_from_object_.matrix()); }
+    /// The world's triangle of three points, which go round counter-clockwise seen from outside: they do so
+    /// in the world, too, but the other way for ReverseOrientation.
+    Corners triangle(Vec3d a, Vec3d b, Vec3d c) const {
+        if (is_turned_) std::swap(b, c);
+        return {Vec3(point(a)), Vec3(point(b)), Vec3(point(c))};
+    }
     /// By how much lengths grow, where lengths grow alike in all directions to the last bits of a double;
     /// nullopt otherwise.
     std::optional<double> uniform_scale() const { return uniform_scale_; }

@@ -112,6 +112,9 @@ struct FileMesh final : Shape {
         return part(i).pdf_from(within(i), reference, numbered(hit, within(i)), wi);
     }
     NormalCone normals(std::uint32_t i) const override { return part(i).normals(within(i)); }
+    bool tessellate(double tolerance, const TriangleSink& out) const override {
+        return triangles_->tessellate(tolerance, out) && patches_->tessellate(tolerance, out);
+    }
     std::size_t bytes() const override { return triangles_->bytes() + patches_->bytes(); }
 
   private:

@@ -42,6 +42,12 @@ inline double to_radians(float degrees) {
     return static_cast<double>(degrees) * (3.14159265358979323846 / 180);
 }
 
+/// The circles that a surface runs along.
+struct Arcs {
+    double around = 0;           ///< largest radius of those around the axis
+    double radius = 0, bend = 0; ///< of the one from v = 0 to 1, and the angle of it; 0: a straight line
+};
+
 /// Q is the quadric (which derives from this) and provides, in object space:
 ///     Roots roots(const ObjectRay&) const;
 ///     Vec3d snap(Vec3d p) const;                  the surface's point nearest to p, which is within rounding
@@ -50,6 +56,8 @@ inline double to_radians(float degrees) {
 ///     ObjectTangents tangents(Vec3d p) const;
 ///     Vec3d point_at(Vec2d u) const;              uniform over the area within the limits
 ///     double object_area() const;
+///     Vec3d at_parameters(double u, double v) const;
+///     Arcs arcs() const;
 template <class Q>
 struct QuadricShape : Shape {
     float phimax = 360;
@@ -99,6 +107,26 @@ struct QuadricShape : Shape {
         return {change(tangents.dpdu), change(tangents.dpdv)};
     }
 
+    bool tessellate(double tolerance, const TriangleSink& out) const final {
+        // The two arcs' errors add up.
+        const double allowed = 0.5 * tolerance / placement.largest_stretch();
+        const Arcs arcs = self().arcs();
+        const int around = chords(arcs.around, phi_max_, allowed),
+                  along = chords(arcs.radius, arcs.bend, allowed);
+        const bool is_closed = phimax >= 360;
+        auto at = [&](int i, int j) {
+            if (is_closed && i == around) i = 0;
+            return self().at_parameters(static_cast<double>(i) / around, static_cast<double>(j) / along);
+        };
+        for (int j = 0; j < along; ++j)
+            for (int i = 0; i < around; ++i) {
+                const Vec3d a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+                out(placement.triangle(a, b, c));
+                out(placement.triangle(a, c, d));
+            }
+        return true;
+    }
+
     float area(std::uint32_t /*primitive*/) const final { return static_cast<float>(world_area_); }
 
     ShapeSample sample(std::uint32_t /*primitive*/, Vec2 u) const final {
@@ -134,6 +162,14 @@ struct QuadricShape : Shape {
 
   private:
     const Q& self() const { return static_cast<const Q&>(*this); }
+
+    // How many chords stay within the distance of an arc.
+    static int chords(double radius, double angle, double allowed) {
+        constexpr double widest = 0.25 * 3.14159265358979323846;
+        constexpr double most = 1 << 14;
+        const double step = allowed < radius ? std::min(2 * std::acos(1 - allowed / radius), widest) : widest;
+        return static_cast<int>(std::clamp(std::ceil(angle / step), 1.0, most));
+    }
 
     // The root that met.t is the rounded value of.
     double exact_distance(const ObjectRay& r, double t) const {

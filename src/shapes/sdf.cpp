@@ -87,6 +87,18 @@ struct SdfShape final : Shape {
         return hit;
     }
 
+    // Sharp edges are cut off by up to a cell.
+    bool tessellate(double tolerance, const TriangleSink& out) const override {
+        // A cell's triangles are much nearer to a surface that is smooth: by the square of the cell.
+        constexpr double cells_in_tolerance = 0.125;
+        constexpr int fewest = 4, most = 9;
+        if (box_.is_empty()) return true;
+        const double cells = extent_ * placement_.largest_stretch() * cells_in_tolerance / tolerance;
+        const int levels = std::clamp(static_cast<int>(std::ceil(std::log2(cells))), fewest, most);
+        for (const SdfTriangle& t : tessellate_field(levels)) out(facing(t));
+        return true;
+    }
+
     float area(std::uint32_t) const override { return points().area(); }
     ShapeSample sample(std::uint32_t, Vec2 u) const override {
         auto p = points().at(u);
@@ -104,6 +116,17 @@ struct SdfShape final : Shape {
         double steepness = 0;
         ProjectedUv uv;
     };
+
+    std::vector<SdfTriangle> tessellate_field(int levels) const {
+        return alhazen::tessellate(*field.node, levels);
+    }
+    // With its corners round the side where the field grows.
+    Corners facing(const SdfTriangle& t) const {
+        const auto& [a, b, c] = t;
+        const Vec3d out = field->value(dual_point((a + b + c) * (1.0 / 3))).d;
+        const bool is_outward = dot(cross(b - a, c - a), out) >= 0;
+        return is_outward ? placement_.triangle(a, b, c) : placement_.triangle(a, c, b);
+    }
 
     // Where the line is within the box.
     SphereTrace clip(Vec3d o, Vec3d d) const {
@@ -138,7 +161,7 @@ struct SdfShape final : Shape {
         constexpr int levels = 7;
         return points_.get([this] {
             std::vector<SdfTriangle> triangles;
-            if (!box_.is_empty()) triangles = tessellate(*field.node, levels);
+            if (!box_.is_empty()) triangles = tessellate_field(levels);
             return TrianglePoints(std::move(triangles), [this](Vec3d p) { return placement_.point(p); });
         });
     }

@@ -22,10 +22,10 @@ struct SdfGrid final : Shape {
     GridNormals normals = GridNormals::smooth;
 
     static void describe(Fields<SdfGrid>& f) {
-        f.about("The surface of a signed distance field that a file holds samples of: negative inside, "
-                "interpolated trilinearly. `alhazen sdf` makes such files of meshes. Its parameters u and v "
-                "are two "
-                "of the coordinates, over the longest side of its bounds.");
+        f.about(
+            "The surface of a signed distance field that a file holds samples of: negative inside, "
+            "interpolated trilinearly. `alhazen sdf` makes such files of meshes and scenes. Its parameters u "
+            "and v are two of the coordinates, over the longest side of its bounds.");
         f.field("filename", &SdfGrid::filename,
                 "the file, relative to the scene's folder: .vol (Mitsuba 3), or .nvdb (NanoVDB) with a level "
                 "set, "
@@ -101,6 +101,15 @@ struct SdfGrid final : Shape {
         hit.time = ray.time;
         hit.primitive = primitive;
         return hit;
+    }
+
+    // As fine as the grid itself.
+    bool tessellate(double /*tolerance*/, const TriangleSink& out) const override {
+        for (const auto& [a, b, c] : field_.triangles()) {
+            const bool is_outward = dot(cross(b - a, c - a), field_.gradient((a + b + c) * (1.0 / 3))) >= 0;
+            out(is_outward ? placement_.triangle(a, b, c) : placement_.triangle(a, c, b));
+        }
+        return true;
     }
 
     float area(std::uint32_t) const override { return points().area(); }

@@ -1,5 +1,8 @@
 #include "shapes/shape.h"
 
+#include "accel/primitives.h"
+#include "shapes/triangle_mesh.h"
+
 namespace alhazen {
 
 namespace {
@@ -22,6 +25,17 @@ std::optional<ShapeSample> Shape::sample_from(std::uint32_t primitive, Vec3 refe
     s.pdf = per_steradian(s.pdf, Vec3d(s.p) - Vec3d(reference), s.ng);
     if (!(s.pdf > 0)) return std::nullopt;
     return s;
+}
+
+bool Shape::tessellate(double /*tolerance*/, const TriangleSink& out) const {
+    const TriangleMesh* mesh = triangles();
+    if (!mesh) return false;
+    for (std::uint32_t i = 0; i < mesh->primitive_count(); ++i) {
+        auto [a, b, c] = mesh->vertices(i);
+        if (mesh->is_turned()) std::swap(b, c);
+        out(Corners{a, b, c});
+    }
+    return true;
 }
 
 float Shape::pdf_from(std::uint32_t primitive, Vec3 reference, const Hit& hit, Vec3 /*wi*/) const {

@@ -2,6 +2,7 @@
 /// triangles, a single sphere), which the acceleration structure sees one by one.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "accel/intersection.h"
@@ -14,6 +15,10 @@
 namespace alhazen {
 
 struct TriangleMesh; // shapes/triangle_mesh.h
+struct Corners;      // accel/primitives.h
+
+/// Takes triangles, one after the other.
+using TriangleSink = std::function<void(const Corners&)>;
 
 /// A point chosen on a primitive.
 struct ShapeSample {
@@ -70,6 +75,11 @@ struct Shape {
 
     /// The mesh, when the primitives are triangles: scenes test those without a virtual call a triangle.
     virtual const TriangleMesh* triangles() const { return nullptr; }
+
+    /// Cuts the whole surface into triangles, whose points are at most tolerance (in the world, above 0) away
+    /// from it, and from whose outside, by the parameterisation, the corners go round counter-clockwise: from
+    /// the inside for ReverseOrientation. Returns false, and gives none, for kinds that cannot be cut.
+    virtual bool tessellate(double tolerance, const TriangleSink& out) const;
 
     /// The ball that it is, if so: scenes test few of those together.
     virtual std::optional<Ball> ball() const { return std::nullopt; }

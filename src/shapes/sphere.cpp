@@ -70,6 +70,12 @@ struct Sphere final : QuadricShape<Sphere> {
         return {across * std::cos(phi), across * std::sin(phi), z};
     }
     double object_area() const { return phi_max_ * r_ * (z_max_ - z_min_); }
+    Vec3d at_parameters(double u, double v) const {
+        const double phi = phi_max_ * u, theta = std::lerp(theta_min_, theta_max_, v),
+                     across = r_ * std::sin(theta);
+        return {across * std::cos(phi), across * std::sin(phi), r_ * std::cos(theta)};
+    }
+    Arcs arcs() const { return {r_, r_, theta_min_ - theta_max_}; }
 
   private:
     Hit ball_surface(const Ray& ray, std::uint32_t primitive, const Intersection& met) const {

@@ -82,13 +82,52 @@ TEST_F(SdfCommand, MakesLevelSets) {
     EXPECT_LT(grid.bricks.size(), 13u * 13u * 13u * 7 / 10); // of 103 samples along each axis
 }
 
+// The same cube in a file, and in a scene as one of its halves and an instance of an instance of it.
+TEST_F(SdfCommand, MakesAGridOfAScene) {
+    write("scene.pbrt", R"(WorldBegin
+ObjectBegin "half"
+Shape "trianglemesh" "point3 P" [ -1 -1 -1  0 -1 -1  0 1 -1  -1 1 -1  -1 -1 1  0 -1 1  0 1 1  -1 1 1 ]
+    "integer indices" [ 0 2 1 0 3 2  4 5 6 4 6 7  0 1 5 0 5 4  2 3 7 2 7 6  3 0 4 3 4 7 ]
+ObjectEnd
+ObjectBegin "other"
+Scale -1 1 1
+ObjectInstance "half"
+ObjectEnd
+ObjectInstance "half"
+ObjectInstance "other"
+Shape "curve" "point3 P" [ 0 0 0  .1 0 0  .2 0 0  .3 0 0 ]
+)");
+    for (const char* input : {"cube.ply", "scene.pbrt"}) {
+        Outcome o = alhazen(fmt::format("sdf {} -o {}.vol --resolution 24", input, input));
+        ASSERT_EQ(o.exit_code, 0) << o.err;
+        EXPECT_THAT(o.out, HasSubstr("31 x 31 x 31 samples"));
+        EXPECT_EQ(o.err, input[0] == 'c' ? ""
+                                         : "scene.pbrt:12:1: warning: shape \"curve\" cannot be cut into "
+                                           "triangles; it is left out\n");
+    }
+    GridData mesh = read_grid(path("cube.ply.vol"), ""), scene = read_grid(path("scene.pbrt.vol"), "");
+    ASSERT_EQ(mesh.bricks.size(), scene.bricks.size());
+    for (std::size_t i = 0; i < mesh.bricks.size(); ++i)
+        for (std::size_t k = 0; k < GridBrick::samples; ++k)
+            ASSERT_NEAR(mesh.bricks[i].values[k], scene.bricks[i].values[k], 1e-6f);
+}
+
 TEST_F(SdfCommand, SaysWhatIsWrong) {
-    for (auto [arguments, text] : {std::pair{"none.ply -o a.vol", "none.ply: no such file"},
-                                   {"cube.ply -o a.raw", "the suffix must be one of .vol"},
-                                   {"cube.ply -o none/a.vol", "there is no folder \"none\""},
-                                   {"grid.pbrt -o a.vol", "grid.pbrt: "},
-                                   {"cube.ply", "--output is required"},
-                                   {"cube.ply -o a.vol --resolution 1", "--resolution"}}) {
+    write("empty.pbrt", "WorldBegin\n");
+    write("bad.ply", "no mesh\n");
+    for (auto [arguments, text] :
+         {std::pair{"none.ply -o a.vol", "none.ply: no such file"},
+          {"cube.ply -o a.raw", "the suffix must be one of .vol"},
+          {"cube.ply -o none/a.vol", "there is no folder \"none\""},
+          {"grid.pbrt -o a.vol", "grid.pbrt:11:17: error: grid file \"cube.vol\": no such"},
+          {"empty.pbrt -o a.vol", "empty.pbrt: error: the scene has no surfaces\n"},
+          {"mesh.pbrt -o a.vol --max-triangles 11",
+           "mesh.pbrt: error: the scene's surfaces would be 12 triangles, instances "
+           "repeated; at most 11 are made (--max-triangles)\n"},
+          {"cube.txt -o a.vol", "cube.txt: error: unknown scene format \".txt\""},
+          {"bad.ply -o a.vol", "bad.ply: "},
+          {"cube.ply", "--output is required"},
+          {"cube.ply -o a.vol --resolution 1", "--resolution"}}) {
         SCOPED_TRACE(arguments);
         Outcome o = alhazen(std::string("sdf ") + arguments);
         EXPECT_EQ(o.exit_code, 2);
