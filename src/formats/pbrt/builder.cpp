@@ -32,7 +32,7 @@ bool PbrtBuilder::check_world(std::string_view directive, const Place& place) {
 void PbrtBuilder::modernise(Node& node, std::string_view family) {
     if (const OldName* old = find_old_name(family, "", node.type)) {
         messages_.add_unsupported(node.place, describe_old_name(*old), remedy_for(*old));
-        if (!old->now.empty()) node.type = old->now;
+        if (const std::string_view other = stand_in_for(*old); !other.empty()) node.type = other;
     }
     auto is_replaced = [&](Parameter& p) {
         const OldName* old = find_old_name("parameter", family, p.name);

@@ -47,7 +47,7 @@ constexpr std::array old_names{
     OldName{"material", "", "mirror", "conductor", "with \"reflectance\" for \"Kr\""},
     OldName{"material", "", "shinymetal", "conductor", ""},
     OldName{"material", "", "translucent", "diffusetransmission", ""},
-    OldName{"material", "", "fourier", "measured", ""},
+    OldName{"material", "", "fourier", "", "\"measured\" reads files of another format"},
     OldName{"material", "", "kdsubsurface", "subsurface", ""},
     OldName{"material", "", "none", "interface", ""},
     OldName{"material", "", "", "interface", ""},
@@ -89,8 +89,13 @@ std::string describe_old_name(const OldName& old) {
                        old.now, hint);
 }
 
+std::string_view stand_in_for(const OldName& old) {
+    return old.now.empty() && old.family == "material" ? "diffuse" : old.now;
+}
+
 Remedy remedy_for(const OldName& old) {
-    return old.now.empty() ? Remedy::leave_out() : Remedy::use(fmt::format("\"{}\"", old.now));
+    const std::string_view other = stand_in_for(old);
+    return other.empty() ? Remedy::leave_out() : Remedy::use(fmt::format("\"{}\"", other));
 }
 
 } // namespace alhazen

@@ -21,7 +21,9 @@ struct OldName {
 const OldName* find_old_name(std::string_view family, std::string_view kind, std::string_view name);
 /// The message: material "matte" is pbrt-v3's name; pbrt-v4 has "diffuse" (...)
 std::string describe_old_name(const OldName& old);
-/// The name in v4 instead; when there is none, leaving the thing out.
+/// What lenient loading takes instead: the name in v4; of a material that has none "diffuse", else "".
+std::string_view stand_in_for(const OldName& old);
+/// That instead, or leaving the thing out.
 Remedy remedy_for(const OldName& old);
 
 } // namespace alhazen

@@ -396,6 +396,21 @@ TEST(PbrtDirective, OlderNamesAreTold) {
               "would use \"filename\" instead");
 }
 
+// Files of the old material are none that the one of measurements reads.
+TEST(PbrtDirective, AnOldMaterialWithoutSuccessorIsMatte) {
+    const std::string text = "Material \"fourier\" \"string bsdffile\" \"paint.bsdf\"";
+    const std::string told = "material \"fourier\" is an older pbrt's; pbrt-v4 has nothing of that name: "
+                             "\"measured\" reads files of another format; ";
+    EXPECT_EQ(errors_of(in_world(text)),
+              "<string>:2:1: error: " + told + "--lenient would use \"diffuse\" instead");
+    Messages messages;
+    messages.lenient = true;
+    SceneDescription scene = read_pbrt_string("WorldBegin " + text, {}, messages);
+    EXPECT_EQ(scene.materials.at(0).type, "diffuse");
+    ASSERT_THAT(messages.warnings(), SizeIs(1));
+    EXPECT_THAT(messages.list()[0].text, told + "using \"diffuse\" instead");
+}
+
 TEST(PbrtDirective, LenientReadsOlderNames) {
     Messages messages;
     messages.lenient = true;
