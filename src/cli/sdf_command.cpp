@@ -79,9 +79,10 @@ int run_sdf(SdfOptions& options) {
     bool is_drawn = !options.quiet && stderr_is_terminal();
     GridData data;
     with_threads(options.threads, [&] {
-        MeshDistance mesh(is_mesh(options.input) ? read_mesh(options.input) : read_surfaces(options));
+        options.grid.is_one_body = is_mesh(options.input);
+        auto triangles = options.grid.is_one_body ? read_mesh(options.input) : read_surfaces(options);
         std::signal(SIGINT, on_sdf_interrupt);
-        data = sample_mesh(mesh, options.grid, [&](double fraction) {
+        data = sample_mesh(triangles, options.grid, [&](double fraction) {
             if (is_drawn) {
                 fmt::print(stderr, "\rsampling: {:3.0f} %\x1b[K", 100 * fraction);
                 std::fflush(stderr);

@@ -147,7 +147,7 @@ ObjectInstance "ball"
                                    {64});
     ASSERT_EQ(s.error, "");
     const double cell = 10.0 / 64;
-    const GridData grid = sample_mesh(MeshDistance(s.triangles), {64, 3, true}, {});
+    const GridData grid = sample_mesh(s.triangles, {64, 3, true}, {});
     double farthest = 0;
     for (const GridBrick& b : grid.bricks)
         for (int i = 0; i < 512; ++i) {

@@ -114,13 +114,12 @@ TEST(MeshGrids, HoldTheDistanceOfTheBody) {
         bool is_outward = dot(cross(t[1] - t[0], t[2] - t[0]), t[0]) > 0;
         mesh.push_back({Vec3(t[0]), Vec3(t[is_outward ? 1 : 2]), Vec3(t[is_outward ? 2 : 1])});
     }
-    MeshDistance distance(mesh);
     for (bool full : {false, true}) {
         MeshGridOptions options;
         options.resolution = 40;
         options.is_full = full;
         double told = 0;
-        GridData data = sample_mesh(distance, options, [&](double fraction) {
+        GridData data = sample_mesh(mesh, options, [&](double fraction) {
             told = std::max(told, fraction);
             return true;
         });
@@ -144,12 +143,12 @@ TEST(MeshGrids, HoldTheDistanceOfTheBody) {
 }
 
 TEST(MeshGrids, DoNotDependOnThreads) {
-    MeshDistance distance(pebble_mesh(4));
+    const std::vector<Corners> mesh = pebble_mesh(4);
     MeshGridOptions options;
     options.resolution = 24;
     auto with = [&](int threads) {
         GridData data;
-        with_threads(threads, [&] { data = sample_mesh(distance, options, {}); });
+        with_threads(threads, [&] { data = sample_mesh(mesh, options, {}); });
         return data;
     };
     GridData one = with(1), three = with(3);
@@ -161,8 +160,8 @@ TEST(MeshGrids, DoNotDependOnThreads) {
 }
 
 TEST(MeshGrids, OfNothingAreAnError) {
-    EXPECT_THROW(sample_mesh(MeshDistance({}), {}, {}), std::runtime_error);
-    EXPECT_THROW(sample_mesh(MeshDistance({{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}), {}, {}), std::runtime_error);
+    EXPECT_THROW(sample_mesh({}, {}, {}), std::runtime_error);
+    EXPECT_THROW(sample_mesh({{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}, {}, {}), std::runtime_error);
 }
 
 } // namespace
