@@ -110,13 +110,19 @@ TEST(Relief, BumpsOnASphereAreThoseOfTheRaisedSphere) {
             }
 }
 
+// Seen straight from above by pixels of that width.
+Hit plane_seen_by(PixelCone& cone, float width) {
+    cone.parallel = {0, 0, -1};
+    cone.width = width;
+    Hit hit = plane();
+    hit.cone = &cone;
+    return hit;
+}
+
 // The heights that are compared are blurred alike.
 TEST(Relief, BumpsFinerThanAPixelVanish) {
     PixelCone cone;
-    cone.parallel = {0, 0, -1};
-    cone.width = 0.2f;
-    Hit hit = plane();
-    hit.cone = &cone;
+    Hit hit = plane_seen_by(cone, 0.2f);
     bumps(std::make_shared<BlurredAway>()).apply(hit, {});
     expect_near(hit.ns, {0, 0, 1}, 0);
 }
@@ -124,18 +130,13 @@ TEST(Relief, BumpsFinerThanAPixelVanish) {
 // Pixels 0.2 wide cover 0.1 of u, whose unit is 2 long: a step as high as 1 rises by 1 over half of that.
 TEST(Relief, HeightsAreComparedOverHalfAPixel) {
     PixelCone cone;
-    cone.parallel = {0, 0, -1};
-    cone.width = 0.2f;
-    Hit hit = plane();
-    hit.cone = &cone;
+    Hit hit = plane_seen_by(cone, 0.2f);
     bumps(std::make_shared<Step>()).apply(hit, {});
     expect_near(hit.dpdu, {2, 0, 20}, 1e-3f);
     expect_near(hit.dpdv, {0, 3, 0}, 1e-3f);
     // Far from the world's origin no step is less than what rounding leaves exact.
-    cone.width = 1e-7f;
-    hit = plane();
+    hit = plane_seen_by(cone, 1e-7f);
     hit.p = {1000, 0, 0};
-    hit.cone = &cone;
     bumps(std::make_shared<ByPlace>()).apply(hit, {});
     expect_near(hit.ns, normalize(Vec3(-0.5f, 0, 1)), 0.1f);
 }
