@@ -84,7 +84,8 @@ class MediumWalk {
 MediumCrossing cross_medium(const Medium& medium, const Ray& ray, bool counts_emission, LaneWeights& weights,
                             PathContext& path, MediumNumbers& numbers);
 
-/// Next event estimation at a point of a medium; takes three random numbers.
+/// Next event estimation at a point of a medium, for paths that go on in a direction of the phase function
+/// and find lights so, too (as LightSampling::beside_bsdf); takes three random numbers.
 std::optional<DirectLight> propose_light_in_medium(const MediumCrossing& at, const Medium& medium, float time,
                                                    PathContext& path);
 

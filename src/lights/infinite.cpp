@@ -42,7 +42,8 @@ struct InfiniteLight final : Light {
             .unit("scene units");
         f.field("compensate", &InfiniteLight::compensate,
                 "path tracers draw from the light only what is brighter than the mean, as directions of the "
-                "BSDF find the rest (MIS compensation); the mean is the same without");
+                "BSDF find the rest (MIS compensation); the mean is the same without, and with a portal it "
+                "is never done");
         f.example("grey sky", {make_rgb("L", .5f, .5f, .6f)});
         f.example("measured", {make_float("illuminance", 10), make_float("scale", .5f)});
         f.example("picture", {make_string("filename", "sky.exr"), make_float("scale", 2)});

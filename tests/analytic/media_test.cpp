@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "image/codec.h"
 #include "tests/support/render_scene.h"
 #include "tests/support/statistics.h"
 
@@ -140,6 +141,25 @@ Shape "sphere" "float radius" .7
 AttributeEnd
 )";
 
+// As through_the_box, all of it in view.
+std::string whole_box(const std::string& integrator, int spp, const std::string& medium,
+                      const std::string& lights) {
+    std::string text = through_the_box(integrator, spp, medium, lights);
+    return text.replace(text.find("[ -.01 .01 -.01 .01 ]"), 21, "[ -1.2 1.2 -1.2 1.2 ]");
+}
+
+std::vector<double> means_of_seeds(const std::string& text, ColorMode mode) {
+    std::vector<double> list;
+    for (int seed = 0; seed < 16; ++seed) {
+        RenderSettings settings;
+        settings.seed = static_cast<std::uint64_t>(seed);
+        settings.color = mode;
+        const Image image = render_text(text, settings).image;
+        list.push_back((mean_of(image, 0) + mean_of(image, 1) + mean_of(image, 2)) / 3);
+    }
+    return list;
+}
+
 // Welch's t-test over 16 seeds, |t| < 7.
 TEST(MediaAgreement, LightSamplingOrNot) {
     for (
@@ -152,24 +172,41 @@ TEST(MediaAgreement, LightSamplingOrNot) {
             for (const ColorMode mode : {ColorMode::rgb, ColorMode::spectral}) {
                 SCOPED_TRACE(border + " " + medium);
                 auto means = [&](const char* integrator, int spp) {
-                    std::string text = through_the_box(integrator, spp, medium, bright_sky);
+                    std::string text = whole_box(integrator, spp, medium, bright_sky);
                     text.replace(text.find("Material \"interface\""), 20, border);
-                    text.replace(text.find("[ -.01 .01 -.01 .01 ]"), 21, "[ -1.2 1.2 -1.2 1.2 ]");
-                    std::vector<double> list;
-                    for (int seed = 0; seed < 16; ++seed) {
-                        RenderSettings settings;
-                        settings.seed = static_cast<std::uint64_t>(seed);
-                        settings.color = mode;
-                        const Image image = render_text(text, settings).image;
-                        list.push_back((mean_of(image, 0) + mean_of(image, 1) + mean_of(image, 2)) / 3);
-                    }
-                    return list;
+                    return means_of_seeds(text, mode);
                 };
                 EXPECT_LT(
                     std::abs(t_between(means(R"(Integrator "simplevolpath" "integer maxdepth" 12)", 256),
                                        means(R"(Integrator "volpath" "integer maxdepth" 12)", 48), 1e-4)),
                     7);
             }
+}
+
+// A picture's dark part is left to the phase function, or it is not (MIS compensation). The same t-test.
+TEST(MediaAgreement, PicturesOfTheSkyDrawnWholeOrInPart) {
+    Image image = Image::rgb_image(16, 8);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 16; ++x)
+            image.set_rgb(x, y, x < 4 && y < 3 ? Vec3(3, 2.5f, 2) : Vec3(.7f, .8f, .9f));
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "media_sky.pfm";
+    write_image(file, image);
+    const std::string medium =
+        R"("string type" "homogeneous" "rgb sigma_a" [ .05 .1 .2 ] "rgb sigma_s" [ 1 .7 .4 ] "float g" .5)";
+    auto means = [&](const char* integrator, int spp, bool compensate) {
+        const std::string sky =
+            fmt::format("LightSource \"infinite\" \"string filename\" \"{}\" \"bool compensate\" {}",
+                        file.string(), compensate);
+        return means_of_seeds(whole_box(integrator, spp, medium, sky), ColorMode::rgb);
+    };
+    const std::vector<double> expected =
+        means(R"(Integrator "simplevolpath" "integer maxdepth" 12)", 256, true);
+    for (bool compensate : {true, false})
+        EXPECT_LT(
+            std::abs(t_between(expected,
+                               means(R"(Integrator "volpath" "integer maxdepth" 12)", 64, compensate), 1e-4)),
+            7)
+            << compensate;
 }
 
 } // namespace
