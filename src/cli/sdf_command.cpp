@@ -129,7 +129,8 @@ void add_sdf_command(CLI::App& app, Action& action) {
         ->type_name("N");
     command
         ->add_option("--max-triangles", options->surfaces.most_triangles,
-                     "most that a scene's surfaces may become, instances repeated (default 33554432)")
+                     fmt::format("most that a scene's surfaces may become, instances repeated (default {})",
+                                 options->surfaces.most_triangles))
         ->check(CLI::PositiveNumber)
         ->type_name("N");
     command->add_option("--band", options->grid.band, "cells on each side of the surface (default 3)")

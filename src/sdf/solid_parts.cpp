@@ -1,6 +1,7 @@
 #include "sdf/solid_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -37,7 +38,9 @@ struct Sides {
 
 Sides sides_of(const Corners& t) {
     const Vec3d v = cross(Vec3d(t.b) - Vec3d(t.a), Vec3d(t.c) - Vec3d(t.a)) * 0.5;
-    return {v, length(v)};
+    const double area = length(v);
+    // What is not finite must not decide for what hangs on it.
+    return std::isfinite(area) ? Sides{v, area} : Sides{};
 }
 
 // Triangles joined where corners are at the same place.

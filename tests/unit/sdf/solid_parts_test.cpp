@@ -75,6 +75,9 @@ TEST(SolidParts, MayBeNothing) {
     broken[3].b.y = std::numeric_limits<float>::quiet_NaN();
     const MeshParts parts = mesh_parts(broken, true);
     EXPECT_EQ(parts.solid.size() + parts.sheets.size(), broken.size());
+    Mesh broken_ground = floor_and_wall();
+    broken_ground[1].c.x = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(mesh_parts(broken_ground, true).sheets.size(), 4u);
 }
 
 // The corner of floor and wall fills up to three quarters of all directions.
