@@ -10,6 +10,15 @@ function(alhazen_precompile target)
     endif()
 endfunction()
 
+# alhazen_unity(TARGET BATCH file...): compiles so many files of the target at once, but those named, which share names of
+# their own with others.
+function(alhazen_unity target batch)
+    if(ALHAZEN_UNITY)
+        set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+    endif()
+endfunction()
+
 # alhazen_room(NAME SEES room... LIBRARIES target... APART pattern...)
 # One library a folder of src/. SEES names the rooms it may include from: the layers of the house, checked by
 # tools/check_layers. APART: files that share names of their own with others, and are compiled by themselves always.
@@ -25,12 +34,9 @@ function(alhazen_room name)
         set(scope PUBLIC)
         target_link_libraries(alhazen_${name} PRIVATE ${ROOM_PRIVATE})
         alhazen_precompile(alhazen_${name})
-        if(ALHAZEN_UNITY)
-            list(TRANSFORM ROOM_APART PREPEND ${PROJECT_SOURCE_DIR}/src/${name}/)
-            file(GLOB apart ${ROOM_APART})
-            set_source_files_properties(${apart} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-            set_target_properties(alhazen_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-        endif()
+        list(TRANSFORM ROOM_APART PREPEND ${PROJECT_SOURCE_DIR}/src/${name}/)
+        file(GLOB apart ${ROOM_APART})
+        alhazen_unity(alhazen_${name} 8 ${apart})
     else()
         add_library(alhazen_${name} INTERFACE)
         set(scope INTERFACE)

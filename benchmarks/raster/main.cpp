@@ -1,13 +1,13 @@
 /// How long the rasteriser takes for a picture, beside ray casting of the same: scenes made by formula and
 /// scene files. Both run in turn in one process; what counts is the median, and for the comparison the median
 /// of the ratios.
-#include <chrono>
 #include <cstdio>
 #include <ctime>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/stopwatch.h"
 #include "base/threads.h"
 #include "benchmarks/accel/meshes.h"
 #include "formats/format.h"
@@ -63,9 +63,9 @@ double milliseconds(World& world, const Options& options) {
 double visibility_milliseconds(const World& world, const Options& options) {
     double result = 0;
     with_threads(options.threads, [&] {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         Rasterizer(*world.scene, *world.camera, world.spp).run(world.film->pixels(), [](const DrawnTile&) {});
-        result = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() * 1e3;
+        result = watch.seconds() * 1e3;
     });
     return result;
 }

@@ -1,6 +1,5 @@
 /// alhazen compare: one scene seen by several integrators, side by side on one sheet.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <set>
 
@@ -9,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/stopwatch.h"
 #include "base/threads.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -76,21 +76,17 @@ std::vector<std::string> usual_ways(const std::string& scene) {
     return ways;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 View see(const CompareOptions& options, const Way& way, Messages& messages) {
     RenderSettings settings = options.scene_options.settings;
     settings.integrator = way.integrator;
     if (way.accel) settings.accel = way.accel;
     View view;
     view.name = way.name;
-    auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch_build;
     std::unique_ptr<World> world;
     with_threads(settings.threads,
                  [&] { world = build_world(read_scene(options.scene, messages), settings, messages); });
-    view.build_seconds = seconds_since(start);
+    view.build_seconds = watch_build.seconds();
     ProgressBar bar(options.quiet);
     RenderWatch watch;
     watch.progress = [&](const Progress& p) { bar.update(p); };

@@ -1,19 +1,17 @@
 /// alhazen render: a scene file becomes pictures.
-#include <atomic>
-#include <chrono>
-#include <csignal>
 #include <cstdio>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/stopwatch.h"
 #include "base/threads.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
@@ -25,14 +23,6 @@
 namespace alhazen {
 
 namespace {
-
-/// Set by the signal handler, read by the renderer.
-std::atomic<bool> interrupted{false};
-
-extern "C" void on_interrupt(int) {
-    // A second Ctrl-C ends the program at once.
-    if (interrupted.exchange(true)) _exit(exit_interrupted);
-}
 
 struct RenderOptions {
     std::string scene;
@@ -46,10 +36,6 @@ struct RenderOptions {
 struct Timing {
     double load = 0, build = 0;
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // "teapot" of "scenes/teapot.pbrt.gz".
 std::string scene_stem(const std::string& scene) {
@@ -161,18 +147,13 @@ void report_bad_samples(const RenderOptions& options, const RenderStats& stats) 
 }
 
 RenderStats render_with_progress(World& world, const RenderOptions& options) {
-    interrupted = false;
-    struct sigaction handler {};
-    handler.sa_handler = on_interrupt;
-    struct sigaction before {};
-    sigaction(SIGINT, &handler, &before);
+    const InterruptWatch interrupt;
     ProgressBar bar(options.quiet);
     RenderWatch watch;
-    watch.cancel = &interrupted;
+    watch.cancel = &interrupt.interrupted();
     watch.progress = [&](const Progress& p) { bar.update(p); };
     RenderStats stats = render(world, options.scene_options.settings, watch);
     bar.finish();
-    sigaction(SIGINT, &before, nullptr);
     return stats;
 }
 
@@ -198,13 +179,13 @@ int run_render(RenderOptions& options) {
     Messages messages;
     messages.lenient = options.scene_options.lenient;
     Timing timing;
-    auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     std::unique_ptr<World> world;
     with_threads(options.scene_options.settings.threads, [&] {
         SceneDescription description = read_scene(options.scene, messages);
-        timing.load = seconds_since(start);
+        timing.load = watch.seconds();
         world = build_world(std::move(description), options.scene_options.settings, messages);
-        timing.build = seconds_since(start) - timing.load;
+        timing.build = watch.seconds() - timing.load;
     });
     for (const Message& m : messages.warnings())
         if (!options.quiet) fmt::print(stderr, "{}\n", m.full_text());

@@ -1,7 +1,5 @@
 /// alhazen sdf: a mesh, or all surfaces of a scene, become a grid of signed distances.
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +7,7 @@
 
 #include "base/threads.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/outputs.h"
 #include "cli/terminal.h"
 #include "formats/format.h"
@@ -19,12 +18,6 @@
 namespace alhazen {
 
 namespace {
-
-std::atomic<bool> interrupted{false};
-
-extern "C" void on_sdf_interrupt(int) {
-    interrupted = true;
-}
 
 struct SdfOptions {
     std::string input, output;
@@ -78,21 +71,22 @@ int run_sdf(SdfOptions& options) {
     if (is_dense) options.grid.is_full = true;
     bool is_drawn = !options.quiet && stderr_is_terminal();
     GridData data;
+    bool is_stopped = false;
     with_threads(options.threads, [&] {
         options.grid.is_one_body = is_mesh(options.input);
         auto triangles = options.grid.is_one_body ? read_mesh(options.input) : read_surfaces(options);
-        std::signal(SIGINT, on_sdf_interrupt);
+        const InterruptWatch interrupt;
         data = sample_mesh(triangles, options.grid, [&](double fraction) {
             if (is_drawn) {
                 fmt::print(stderr, "\rsampling: {:3.0f} %\x1b[K", 100 * fraction);
                 std::fflush(stderr);
             }
-            return !interrupted.load();
+            return !interrupt.interrupted();
         });
+        is_stopped = interrupt.interrupted();
     });
-    std::signal(SIGINT, SIG_DFL);
     if (is_drawn) fmt::print(stderr, "\r\x1b[K");
-    if (interrupted) {
+    if (is_stopped) {
         fmt::print(stderr, "alhazen: stopped; nothing is written\n");
         return exit_interrupted;
     }

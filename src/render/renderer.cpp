@@ -1,23 +1,17 @@
 #include "render/renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
+#include "base/stopwatch.h"
 #include "base/threads.h"
 #include "render/flight.h"
 
 namespace alhazen {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 class Renderer {
   public:
@@ -56,12 +50,12 @@ class Renderer {
 
     void run_samples() {
         while (done_ < world_.spp) {
-            auto pass_start = Clock::now();
+            const Stopwatch pass;
             run_pass();
             done_ += pass_;
             // Each sample came with one path from the lights, whose light the whole film measures.
             world_.film->set_splat_scale(1 / (rendered_fraction(*world_.film) * done_));
-            last_pass_ = seconds_since(pass_start);
+            last_pass_ = pass.seconds();
             report(static_cast<double>(done_) / world_.spp, true);
             if (is_cancelled()) break;
         }
@@ -106,7 +100,7 @@ class Renderer {
         p.samples_done = done_;
         p.samples_total = world_.spp;
         p.fraction = fraction;
-        p.seconds = seconds_since(start_);
+        p.seconds = since_start_.seconds();
         p.seconds_left = p.fraction > 0 ? p.seconds * (1 - p.fraction) / p.fraction : 0;
         if (pass_is_finished) {
             std::uint64_t rays = whole_.rays.total();
@@ -119,7 +113,7 @@ class Renderer {
 
     RenderStats stats() {
         RenderStats s;
-        s.seconds = seconds_since(start_);
+        s.seconds = since_start_.seconds();
         s.samples = done_;
         s.cancelled = done_ < world_.spp;
         s.quadrature = quadrature_;
@@ -150,7 +144,7 @@ class Renderer {
     std::optional<Quadrature> quadrature_;
     std::mutex report_mutex_;
     tbb::enumerable_thread_specific<Flight> flights_; // one a thread
-    Clock::time_point start_ = Clock::now();
+    Stopwatch since_start_;
 };
 
 } // namespace

@@ -16,6 +16,10 @@
 
 namespace alhazen {
 
+inline constexpr ColorMode both_modes[] = {ColorMode::rgb, ColorMode::spectral};
+/// What lights are prepared for.
+inline const Bounds3 unit_scene{{-1, -1, -1}, {1, 1, 1}};
+
 inline Node make_node(std::string type, std::vector<Parameter> parameters) {
     Node node;
     node.type = std::move(type);

@@ -14,7 +14,7 @@
 namespace alhazen {
 namespace {
 
-std::unique_ptr<Film> make_film(std::vector<Parameter> more = {}) {
+std::unique_ptr<Film> make_splat_film(std::vector<Parameter> more = {}) {
     std::vector<Parameter> parameters{make_integer("xresolution", 20), make_integer("yresolution", 16)};
     for (Parameter& p : more) parameters.push_back(std::move(p));
     return testing_support::make_member(film_kinds(), "rgb", parameters);
@@ -73,7 +73,7 @@ TEST(Splats, OutsideThePictureTouchItsRimOrNothing) {
 }
 
 TEST(Film, ShowsSplatsBesideSamples) {
-    auto film = make_film();
+    auto film = make_splat_film();
     auto filter = testing_support::make_member(filter_kinds(), "box", {});
     film->start(ColorMode::rgb);
     film->start_splats(*filter);
@@ -92,7 +92,7 @@ TEST(Film, ShowsSplatsBesideSamples) {
 }
 
 TEST(Film, LimitsSplatsAsItDoesSamples) {
-    auto film = make_film({make_float("maxcomponentvalue", 2)});
+    auto film = make_splat_film({make_float("maxcomponentvalue", 2)});
     film->start(ColorMode::rgb);
     film->start_splats(*testing_support::make_member(filter_kinds(), "box", {}));
     film->add_splat({3.5f, 4.5f}, Spectrum(8, 4, 4, 5), Wavelengths::rgb());
@@ -103,7 +103,7 @@ TEST(Film, LimitsSplatsAsItDoesSamples) {
 TEST(Film, SplatsGiveTheSameBitsFromAnyThreads) {
     auto filter = testing_support::make_member(filter_kinds(), "mitchell", {});
     auto splatted = [&](int threads) {
-        auto film = make_film();
+        auto film = make_splat_film();
         film->start(ColorMode::rgb);
         film->start_splats(*filter);
         with_threads(threads, [&] {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -14,7 +15,7 @@
 
 /// The expression throws a std::runtime_error whose text holds `text`.
 #define EXPECT_ERROR(expression, text)                                                                       \
-    EXPECT_THAT([&] { (void)(expression); },                                                                 \
+    EXPECT_THAT(std::function<void()>([&] { (void)(expression); }),                                          \
                 testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr(text)))
 
 namespace alhazen {

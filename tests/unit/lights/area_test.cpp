@@ -5,8 +5,6 @@
 namespace alhazen {
 namespace {
 
-const ColorMode both_modes[] = {ColorMode::rgb, ColorMode::spectral};
-
 // Irradiance of a horizontal receiver from a polygon of radiance 1 above its horizon (Lambert 1760): half the
 // sum over edges of the angle the edge subtends times the cosine between n and the normal of the edge's
 // plane.

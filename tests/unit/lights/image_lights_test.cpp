@@ -6,8 +6,6 @@
 namespace alhazen {
 namespace {
 
-const ColorMode both_modes[] = {ColorMode::rgb, ColorMode::spectral};
-
 // A folder of its own for each test, removed at the end.
 struct ImageLightTest : testing::Test {
     std::filesystem::path folder =

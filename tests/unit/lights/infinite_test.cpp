@@ -8,9 +8,6 @@
 namespace alhazen {
 namespace {
 
-const ColorMode both_modes[] = {ColorMode::rgb, ColorMode::spectral};
-const Bounds3 unit_scene{{-1, -1, -1}, {1, 1, 1}};
-
 // A folder of its own for each test, removed at the end.
 struct InfiniteLightTest : testing::Test {
     std::filesystem::path folder =
@@ -31,7 +28,7 @@ struct InfiniteLightTest : testing::Test {
 };
 
 // Every texel another colour, some black, one a hundred times as bright.
-Image varied_image(int width, int height) {
+Image varied_sky(int width, int height) {
     Image image = Image::rgb_image(width, height);
     Rng rng(11);
     for (int y = 0; y < height; ++y)
@@ -62,7 +59,7 @@ TEST_F(InfiniteLightTest, IlluminanceIsThatOfASurfaceFacingUp) {
     auto sky = make_light("infinite", {make_float("illuminance", 5)});
     EXPECT_NEAR(sky->escaped({}, {0, 0, 1}, Wavelengths::rgb())[1], 5 / pi, 1e-5f);
     for (Vec2i size : {Vec2i{32, 32}, Vec2i{64, 32}}) {
-        auto light = light_of(varied_image(size.x, size.y), ColorMode::rgb, {make_float("illuminance", 5)});
+        auto light = light_of(varied_sky(size.x, size.y), ColorMode::rgb, {make_float("illuminance", 5)});
         Spectrum e = sampled_irradiance(*light, {{0, 0, 0}, {0, 0, 1}}, Wavelengths::rgb(), 600);
         // pbrt-v4 counts half of an image's illuminance, hence shows it twice as bright.
         EXPECT_NEAR(0.2126f * e[0] + 0.7152f * e[1] + 0.0722f * e[2], 10, 0.1f);
@@ -71,7 +68,7 @@ TEST_F(InfiniteLightTest, IlluminanceIsThatOfASurfaceFacingUp) {
 
 TEST_F(InfiniteLightTest, ImageTexelsLieWhereTheirMappingSays) {
     // Octahedral: each texel's middle, mapped to the sphere.
-    Image square = varied_image(16, 16);
+    Image square = varied_sky(16, 16);
     auto light = light_of(square);
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
@@ -80,7 +77,7 @@ TEST_F(InfiniteLightTest, ImageTexelsLieWhereTheirMappingSays) {
             EXPECT_FLOAT_EQ(light->escaped({}, d, Wavelengths::rgb())[0], square.rgb(x, y).x);
         }
     // Equirectangular: rows by the angle from +z, columns by that from +x towards +y.
-    Image wide = varied_image(32, 16);
+    Image wide = varied_sky(32, 16);
     light = light_of(wide);
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 32; ++x) {
@@ -107,7 +104,7 @@ Vec3 integrated_irradiance(const Light& light, Vec3 n) {
 
 TEST_F(InfiniteLightTest, SampledImageLightIsTheSumOverItsTexels) {
     for (Vec2i size : {Vec2i{16, 16}, Vec2i{32, 16}}) {
-        Image image = varied_image(size.x, size.y);
+        Image image = varied_sky(size.x, size.y);
         LightReceiver at{{0, 0, 0}, normalize(Vec3(0.3f, -1, 0.5f))};
         auto light = light_of(image, ColorMode::rgb, {make_float("scale", 3)});
         Vec3 expected = integrated_irradiance(*light, at.ns);
@@ -126,7 +123,7 @@ TEST_F(InfiniteLightTest, DensityIsThatOfTheSamplesEvenWhenStretched) {
     Matrix4 stretch = Matrix4::rotate(30, {1, 2, 3}) * Matrix4::scale({2, -1, 0.5});
     for (const Matrix4& world : {Matrix4{}, stretch})
         for (Vec2i size : {Vec2i{8, 8}, Vec2i{16, 8}}) {
-            auto light = light_of(varied_image(size.x, size.y), ColorMode::rgb, {}, world);
+            auto light = light_of(varied_sky(size.x, size.y), ColorMode::rgb, {}, world);
             LightReceiver at{};
             Rng rng(5);
             int misplaced = 0;
@@ -173,7 +170,7 @@ Vec3 irradiance_with_cosine_sampling(const Light& light, const LightReceiver& at
 TEST_F(InfiniteLightTest, BesideBsdfsOnlyWhatIsBrightIsDrawnAndNothingIsLost) {
     LightReceiver at{{0, 0, 0}, normalize(Vec3(0.3f, -1, 0.5f))};
     for (Vec2i size : {Vec2i{16, 16}, Vec2i{32, 16}}) {
-        Image image = varied_image(size.x, size.y);
+        Image image = varied_sky(size.x, size.y);
         image.set_rgb(size.x / 3, size.y / 4, {10, 9, 8});
         auto light = light_of(image, ColorMode::rgb, {}, Matrix4::rotate(20, {1, 1, 0}));
         Rng rng(6);
@@ -198,7 +195,7 @@ TEST_F(InfiniteLightTest, BesideBsdfsOnlyWhatIsBrightIsDrawnAndNothingIsLost) {
 TEST_F(InfiniteLightTest, WithoutCompensationBsdfsChangeNothing) {
     LightReceiver at{{0, 0, 0}, normalize(Vec3(0.3f, -1, 0.5f))};
     const Parameter all = make_bool("compensate", false);
-    auto picture = light_of(varied_image(16, 16), ColorMode::rgb, {all}, Matrix4::rotate(20, {1, 1, 0}));
+    auto picture = light_of(varied_sky(16, 16), ColorMode::rgb, {all}, Matrix4::rotate(20, {1, 1, 0}));
     auto sky = make_light("infinite", {make_rgb("L", 1, 2, 3), all});
     sky->prepare(unit_scene);
     Rng rng(6);
@@ -216,7 +213,7 @@ TEST_F(InfiniteLightTest, WithoutCompensationBsdfsChangeNothing) {
 }
 
 TEST_F(InfiniteLightTest, PowerOfAnImageIsThatOfItsMean) {
-    Image image = varied_image(32, 16);
+    Image image = varied_sky(32, 16);
     for (ColorMode mode : both_modes) {
         auto light = light_of(image, mode);
         Vec3d mean;

@@ -3,8 +3,6 @@
 namespace alhazen {
 namespace {
 
-const ColorMode both_modes[] = {ColorMode::rgb, ColorMode::spectral};
-
 Vec3 color_at(const Light& light, const LightReceiver& at, ColorMode mode) {
     return film_color(mode,
                       [&](const Wavelengths& lambda) { return sampled_irradiance(light, at, lambda, 1); });

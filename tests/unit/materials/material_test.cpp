@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Node node_of(std::string type, std::vector<Parameter> parameters, std::string name = "m") {
     Node node;
@@ -30,7 +30,7 @@ Wavelengths wavelengths(float a, float b, float c, float d) {
     return {ColorMode::spectral, Spectrum(a, b, c, d), 1};
 }
 
-class MaterialTest : public testing::Test {
+class MaterialTest : public ::testing::Test {
   protected:
     const Material* build(std::vector<Node> nodes, ColorMode mode = ColorMode::spectral) {
         BuildContext context{messages, mode};
@@ -269,7 +269,7 @@ TEST_F(MaterialTest, LenientTakesTheNearestKind) {
     build({node_of("metal", {}, "a"), node_of("glass", {make_float("eta", 2)}, "b")});
     ASSERT_EQ(messages.list().size(), 2u);
     EXPECT_THAT(messages.list()[0].text, HasSubstr("; using \"conductor\" instead"));
-    EXPECT_THAT(messages.list()[1].text, testing::EndsWith("; using \"dielectric\" instead"));
+    EXPECT_THAT(messages.list()[1].text, ::testing::EndsWith("; using \"dielectric\" instead"));
 }
 
 TEST_F(MaterialTest, RemembersTheNamesOfWrongMaterials) {

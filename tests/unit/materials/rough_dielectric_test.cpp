@@ -17,7 +17,7 @@ namespace alhazen {
 
 namespace {
 
-class RoughDielectric : public testing::Test {
+class RoughDielectric : public ::testing::Test {
   protected:
     // With eta 1.5.
     Bsdf* frosted(float roughness, bool remap) {

@@ -12,7 +12,7 @@ using Window = WindowedPiecewiseConstant2D::Window;
 
 constexpr int nx = 7, ny = 5;
 
-std::vector<float> heights() {
+std::vector<float> some_heights() {
     std::vector<float> h;
     Rng rng(3);
     for (int i = 0; i < nx * ny; ++i) h.push_back(rng.uniform() < 0.3f ? 0.0f : 1 + 9 * rng.uniform());
@@ -43,7 +43,7 @@ const Window windows[] = {{{0, 0}, {1, 1}},
                           {{1.0f / 7, 0.2f}, {3.0f / 7, 1}}}; // along the cells
 
 TEST(WindowedDistribution, DensityIsTheHeightOverTheWindowsIntegral) {
-    const auto h = heights();
+    const auto h = some_heights();
     WindowedPiecewiseConstant2D d(h, nx, ny);
     Rng rng(4);
     for (const Window& w : windows) {
@@ -79,7 +79,7 @@ double chi_square(const std::vector<float>& h, const Window& w, const std::vecto
 }
 
 TEST(WindowedDistribution, SamplesFollowTheDensityWithinTheWindow) {
-    const auto h = heights();
+    const auto h = some_heights();
     WindowedPiecewiseConstant2D d(h, nx, ny);
     Rng rng(5);
     for (const Window& w : windows) {

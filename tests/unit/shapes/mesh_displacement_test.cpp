@@ -31,7 +31,7 @@ MeshData square() {
     return mesh;
 }
 
-MeshData octahedron() {
+MeshData octahedron_mesh() {
     MeshData mesh;
     mesh.P = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     mesh.uv.resize(6);
@@ -57,7 +57,7 @@ void expect_closed(const MeshData& mesh) {
 TEST(MeshDisplacement, CutsUntilEdgesAreShortInTheWorld) {
     const Transform stretched(Matrix4::rotate(30, {1, 2, 3}) * Matrix4::scale({4, 1, 0.5}));
     for (float longest : {10.0f, 2.0f, 0.3f, 0.05f}) {
-        MeshData mesh = octahedron();
+        MeshData mesh = octahedron_mesh();
         ASSERT_EQ((Displacement{0.0f, longest, stretched}.apply(mesh)), "");
         double most = 0;
         for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
@@ -75,7 +75,7 @@ TEST(MeshDisplacement, CutsUntilEdgesAreShortInTheWorld) {
 }
 
 TEST(MeshDisplacement, HasNoCracksWhereTheTextureIsRough) {
-    MeshData mesh = octahedron();
+    MeshData mesh = octahedron_mesh();
     auto rough =
         formula([](const TexturePoint& at) { return 0.2f * std::sin(40 * at.p.x + 31 * at.p.y * at.p.z); });
     ASSERT_EQ((Displacement{rough, 0.1f, Transform()}.apply(mesh)), "");
@@ -86,7 +86,7 @@ TEST(MeshDisplacement, HasNoCracksWhereTheTextureIsRough) {
 }
 
 TEST(MeshDisplacement, ASphereGrows) {
-    MeshData mesh = octahedron();
+    MeshData mesh = octahedron_mesh();
     // Three times: cut, and laid onto the sphere, whose normals are then known.
     for (int level = 0; level < 3; ++level) {
         mesh.N = mesh.P;

@@ -9,9 +9,6 @@ namespace {
 
 using testing::HasSubstr;
 
-const Wavelengths rgb = Wavelengths::rgb();
-const Wavelengths some = Wavelengths::sample_visible(0.3f);
-
 void expect_color(Spectrum c, Vec3 expected, float tolerance = 1e-5f) {
     EXPECT_NEAR(c[0], expected.x, tolerance);
     EXPECT_NEAR(c[1], expected.y, tolerance);

@@ -12,6 +12,10 @@
 
 namespace alhazen {
 
+/// What textures' colours are asked for.
+inline const Wavelengths rgb = Wavelengths::rgb();
+inline const Wavelengths some = Wavelengths::sample_visible(0.3f);
+
 inline TextureNode texture_node(std::string type, std::vector<Parameter> parameters, bool is_spectrum,
                                 std::string name = "t") {
     TextureNode t;

@@ -7,9 +7,6 @@ namespace {
 
 using testing::HasSubstr;
 
-const Wavelengths rgb = Wavelengths::rgb();
-const Wavelengths some = Wavelengths::sample_visible(0.3f);
-
 TEST_F(TextureTest, Constant) {
     EXPECT_EQ(number("constant", {make_float("value", 0.25f)}, at_uv(0, 0)), 0.25f);
     EXPECT_EQ(number("constant", {}, at_uv(0, 0)), 1);

@@ -1,0 +1,19 @@
+/// Time by the wall clock.
+#pragma once
+
+#include <chrono>
+
+namespace alhazen {
+
+/// Runs from its beginning.
+class Stopwatch {
+  public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace alhazen
