@@ -50,11 +50,12 @@ class LaneWeights {
         light_ = path_ / pdf;
     }
     void scale(float s) { beta_ *= s; }
-    /// The ray reached its end after the last collision.
-    void pass(Spectrum transmittance) {
+    /// The ray reached its end after the last collision. by_light: the density with which light sampling
+    /// would have come through from there, over the hero's.
+    void pass(Spectrum transmittance, Spectrum by_light) {
         beta_ *= transmittance;
         path_ *= transmittance;
-        light_ *= transmittance;
+        light_ *= by_light;
     }
     /// The collision was none. (Light sampling draws no such choices: it passes with certainty.)
     void pass_null(const Collision& c) {
@@ -78,6 +79,11 @@ class LaneWeights {
         path_ *= through;
         light_ *= t * c.sigma_maj;
     }
+    /// The end of the way to a light, after the last of these.
+    void weaken(Spectrum transmittance) { pass(transmittance, transmittance); }
+    /// A way to a light through what weakens it by a known factor; nothing is drawn. Scattered rays would
+    /// have come through by chance.
+    void weaken_surely(Spectrum transmittance) { pass(transmittance, 1); }
     /// Of two walks with the same hero, joined into one.
     LaneWeights joined(const LaneWeights& other) const {
         LaneWeights both = *this;

@@ -27,8 +27,15 @@ bool weaken_by(Collisions& collisions, float whole, LaneWeights& weights) {
         weights.scale(1 / (1 - given_up));
     }
     if (collisions.needs_surface()) return false;
-    weights.pass(collisions.transmittance());
+    weights.weaken(collisions.transmittance());
     return true;
+}
+
+// Of the ray's first t lengths of its direction, in a homogeneous medium.
+Spectrum transmittance_of(const Medium& medium, const Ray& ray, float t, PathContext& path) {
+    const float length_passed = t * length(ray.d);
+    return map(path.colors_of(medium).sigma_t(),
+               [&](float sigma) { return sigma > 0 ? std::exp(-sigma * length_passed) : 1.0f; });
 }
 
 } // namespace
@@ -37,13 +44,16 @@ MediumWalk::MediumWalk(const Medium& medium, const Ray& ray, bool counts_emissio
                        PathContext& path, MediumNumbers& numbers, const ClearCells* clear)
     : ray_(ray), weights_(weights),
       collisions_(collisions_of(medium, ray, weights.hero(), path, numbers, clear)),
-      emits_(counts_emission && medium.is_emissive()) {}
+      emits_(counts_emission && medium.is_emissive()), is_homogeneous_(medium.is_homogeneous()) {}
 
 bool MediumWalk::go_on() {
     while (const auto collision = collisions_.next())
         if (collide(*collision)) return true;
     if (collisions_.needs_surface()) return false;
-    weights_.pass(collisions_.transmittance());
+    // Light sampling would have passed with certainty through what is the same everywhere.
+    weights_.pass(collisions_.transmittance(), is_homogeneous_
+                                                   ? Spectrum(1 / collisions_.hero_transmittance())
+                                                   : collisions_.transmittance());
     return true;
 }
 
@@ -107,7 +117,7 @@ Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weig
     for (;;) {
         std::optional<Collisions> collisions;
         const float whole = weights.shadow_transmittance();
-        if (medium) {
+        if (medium && !medium->is_homogeneous()) {
             // Without a border in between, on to the light itself.
             Ray part = ray;
             part.tmax = 1;
@@ -121,9 +131,12 @@ Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weig
             weights.block();
             co_return weights;
         }
+        const float t = hit ? hit->t : 1;
         if (collisions) {
-            collisions->meet(hit ? hit->t : 1);
+            collisions->meet(t);
             weaken_by(*collisions, whole, weights);
+        } else if (medium) {
+            weights.weaken_surely(transmittance_of(*medium, ray, t, path));
         }
         if (!hit || weights.is_black()) co_return weights;
         medium = medium_beyond(*hit, ray.d, medium);

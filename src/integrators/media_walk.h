@@ -76,7 +76,7 @@ class MediumWalk {
     Ray ray_;
     LaneWeights& weights_;
     Collisions collisions_;
-    bool emits_;
+    bool emits_, is_homogeneous_;
     MediumCrossing crossing_;
 };
 

@@ -52,6 +52,9 @@ class Collisions {
         return map(sigma_t_, [&](float s) { return s == hero ? 1.0f : std::exp(-(s - hero) * depth_); });
     }
 
+    /// The same of the hero, by itself.
+    float hero_transmittance() const { return std::exp(-sigma_t_[hero_] * depth_); }
+
   private:
     /// Whether there is no surface up to the end of the segment to come; at the end, none up to there.
     bool stays_clear() const {

@@ -35,6 +35,8 @@ struct Medium {
     virtual MediumPoint at(Vec3 p, const MediumColors& colors, const Wavelengths& lambda) const = 0;
     virtual bool is_emissive() const = 0;
 
+    /// Whether the same is everywhere: at() is what colors() says.
+    bool is_homogeneous() const { return majorants_.is_everywhere(); }
     const MajorantGrid& majorants() const { return majorants_; }
     const HenyeyGreenstein& phase() const { return phase_; }
     /// From the world to the medium's own space.

@@ -69,6 +69,28 @@ TEST(MediaClosedForm, AbsorptionIsBeersLaw) {
     expect_means(measured, {std::exp(-0.4f), std::exp(-1.0f), std::exp(-3.0f)});
 }
 
+// What the same matter everywhere lets through towards a light is known, and no chance has a part in it: one
+// sample shows it. The camera is behind the box, and sees a floor that is lit through it.
+TEST(MediaClosedForm, LightComesThroughHomogeneousMatterWithoutNoise) {
+    const std::string medium =
+        R"("string type" "homogeneous" "rgb sigma_a" [ .1 .3 1 ] "rgb sigma_s" [ .1 .2 .5 ])";
+    std::string text = through_the_box(R"(Integrator "volpath" "integer maxdepth" 1)", 1, medium,
+                                       R"(LightSource "distant" "point3 from" [ 0 0 -1 ])");
+    text.replace(text.find("LookAt 0 0 -5"), 13, "LookAt 0 0 1.5");
+    text.replace(text.find("  0 0 0  0 1 0"), 14, "  0 0 2  0 1 0");
+    text += R"(MediumInterface "" ""
+Material "diffuse" "rgb reflectance" [ .5 .5 .5 ]
+Shape "bilinearmesh" "point3 P" [ -1 -1 2  1 -1 2  -1 1 2  1 1 2 ]
+)";
+    RenderSettings settings;
+    settings.color = ColorMode::rgb;
+    const Image image = render_text(text, settings).image;
+    const Vec3 expected = Vec3{std::exp(-0.4f), std::exp(-1.0f), std::exp(-3.0f)} * (0.5f * inv_pi);
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.rgb(x, y)[c] / expected[c], 1, 1e-4f);
+}
+
 // One sample fades out to half of itself at the box's faces: three quarters of it, on average, through the
 // middle.
 TEST(MediaClosedForm, AbsorptionOfAGridOfOneCell) {
@@ -109,8 +131,11 @@ TEST(MediaClosedForm, WhiteFurnace) {
              "point3 p0" [ -1 -1 -1 ] "point3 p1" [ 1 1 1 ])",
          R"("string type" "cloud" "rgb sigma_a" [ 0 0 0 ] "rgb sigma_s" [ 2 2 2 ] "point3 p0" [ -1 -1 -1 ] "point3 p1" [ 1 1 1 ])"}) {
         SCOPED_TRACE(medium);
-        for (const ColorMode mode : {ColorMode::rgb, ColorMode::spectral})
-            expect_means(measure(through_the_box(volpath, 32, medium, white_sky), mode), Vec3(1), 2e-3);
+        // Found by the phase function alone, and by light sampling, too.
+        for (const char* sky :
+             {white_sky, R"(LightSource "infinite" "rgb L" [ 1 1 1 ] "bool compensate" false)"})
+            for (const ColorMode mode : {ColorMode::rgb, ColorMode::spectral})
+                expect_means(measure(through_the_box(volpath, 32, medium, sky), mode), Vec3(1), 2e-3);
     }
 }
 
