@@ -271,7 +271,7 @@ Task<bool> Bidirectional::cross_media(Join& join, const Vertex& from, const Vert
     const std::uint64_t key = hash_of(media.numbers.key, to ? to->number : 0);
     const LaneWeights weights =
         co_await shadow_weights(join.shadow_ray, medium_beyond(from.hit, join.shadow_ray.d, media.medium),
-                                joined, path, MediumNumbers::from_key(key));
+                                false, joined, path, MediumNumbers::from_key(key));
     join.found.L = weights.through_shadow(join.found.L);
     co_return !join.found.L.is_black();
 }

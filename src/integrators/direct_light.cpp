@@ -28,6 +28,7 @@ std::optional<DirectLight> propose_light(const Hit& hit, const Bsdf& bsdf, const
     direct.light_pdf = chosen->probability * light->pdf;
     direct.bsdf_pdf = scatter.pdf;
     direct.is_delta = chosen->light->is_delta();
+    direct.is_sky = chosen->light->is_infinite() && !direct.is_delta;
     direct.value = scatter.f * light->L / direct.light_pdf;
     direct.shadow_ray = hit.spawn_to(light->p, light->p_error, light->ng);
     return direct;

@@ -15,6 +15,7 @@ struct DirectLight {
     float light_pdf = 0;   ///< that density, per steradian
     float bsdf_pdf = 0;    ///< density with which the BSDF would have chosen the direction
     bool is_delta = false; ///< nothing but light sampling finds this light
+    bool is_sky = false;   ///< rays find this light by leaving the scene
     Ray shadow_ray;
 
     /// The weight beside BSDF sampling.

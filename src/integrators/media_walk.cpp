@@ -33,9 +33,8 @@ bool weaken_by(Collisions& collisions, float whole, LaneWeights& weights) {
 
 // Of the ray's first t lengths of its direction, in a homogeneous medium.
 Spectrum transmittance_of(const Medium& medium, const Ray& ray, float t, PathContext& path) {
-    const float length_passed = t * length(ray.d);
-    return map(path.colors_of(medium).sigma_t(),
-               [&](float sigma) { return sigma > 0 ? std::exp(-sigma * length_passed) : 1.0f; });
+    const float passed = t * length(ray.d);
+    return map(path.colors_of(medium).sigma_t(), [&](float sigma) { return std::exp(-sigma * passed); });
 }
 
 } // namespace
@@ -44,14 +43,16 @@ MediumWalk::MediumWalk(const Medium& medium, const Ray& ray, bool counts_emissio
                        PathContext& path, MediumNumbers& numbers, const ClearCells* clear)
     : ray_(ray), weights_(weights),
       collisions_(collisions_of(medium, ray, weights.hero(), path, numbers, clear)),
-      emits_(counts_emission && medium.is_emissive()), is_homogeneous_(medium.is_homogeneous()) {}
+      emits_(counts_emission && medium.is_emissive()), is_homogeneous_(medium.is_homogeneous()),
+      end_(ray.tmax) {}
 
 bool MediumWalk::go_on() {
     while (const auto collision = collisions_.next())
         if (collide(*collision)) return true;
     if (collisions_.needs_surface()) return false;
-    // Light sampling would have passed with certainty through what is the same everywhere.
-    weights_.pass(collisions_.transmittance(), is_homogeneous_
+    // Light sampling would have passed with certainty through what is the same everywhere; see
+    // shadow_weights.
+    weights_.pass(collisions_.transmittance(), is_homogeneous_ && end_ < infinity
                                                    ? Spectrum(1 / collisions_.hero_transmittance())
                                                    : collisions_.transmittance());
     return true;
@@ -104,14 +105,15 @@ std::optional<DirectLight> propose_light_in_medium(const MediumCrossing& at, con
     direct.light_pdf = chosen->probability * light->pdf;
     direct.bsdf_pdf = phase;
     direct.is_delta = chosen->light->is_delta();
+    direct.is_sky = chosen->light->is_infinite() && !direct.is_delta;
     direct.value = light->L * (phase / direct.light_pdf);
     const Vec3 to = offset_origin(light->p, light->p_error, light->ng, at.p - light->p);
     direct.shadow_ray = {at.p, to - at.p, 1 - shadow_epsilon, time};
     return direct;
 }
 
-Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weights, PathContext& path,
-                                 MediumNumbers numbers) {
+Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, bool is_sky, LaneWeights weights,
+                                 PathContext& path, MediumNumbers numbers) {
     weights.begin_shadow();
     const Vec3 target = ray.o + ray.d;
     for (;;) {
@@ -135,8 +137,12 @@ Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weig
         if (collisions) {
             collisions->meet(t);
             weaken_by(*collisions, whole, weights);
-        } else if (medium) {
+        } else if (medium && (hit || !is_sky)) {
             weights.weaken_surely(transmittance_of(*medium, ray, t, path));
+        } else if (medium) {
+            ray.tmax = 1;
+            collisions.emplace(collisions_of(*medium, ray, weights.hero(), path, numbers, nullptr));
+            weaken_by(*collisions, whole, weights);
         }
         if (!hit || weights.is_black()) co_return weights;
         medium = medium_beyond(*hit, ray.d, medium);

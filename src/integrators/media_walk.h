@@ -65,7 +65,10 @@ class MediumWalk {
     /// which meet() has to say.
     bool go_on();
     /// The nearest surface is at t; infinity for none.
-    void meet(float t) { collisions_.meet(t); }
+    void meet(float t) {
+        collisions_.meet(t);
+        end_ = std::min(end_, t);
+    }
     /// How the way ended.
     const MediumCrossing& crossing() const { return crossing_; }
 
@@ -77,6 +80,7 @@ class MediumWalk {
     LaneWeights& weights_;
     Collisions collisions_;
     bool emits_, is_homogeneous_;
+    float end_; ///< of the ray, as far as it is known
     MediumCrossing crossing_;
 };
 
@@ -90,9 +94,11 @@ std::optional<DirectLight> propose_light_in_medium(const MediumCrossing& at, con
                                                    PathContext& path);
 
 /// Weights at the light's end of a shadow ray that begins in the medium: through media and their borders,
-/// black where something stands in between.
-Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, LaneWeights weights, PathContext& path,
-                                 MediumNumbers numbers);
+/// black where something stands in between. Homogeneous media weaken the light by a known factor, others by
+/// ratio tracking. is_sky: see DirectLight; where a homogeneous medium has no end on the way there, scattered
+/// rays would never find what light sampling finds at the scene's edge, and both have to be left to chance.
+Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, bool is_sky, LaneWeights weights,
+                                 PathContext& path, MediumNumbers numbers);
 
 /// The medium where the ray begins: that on this side of the first border on the way to the camera, or the
 /// camera's own. Lights do not know theirs; to paths that find them it follows from the borders, too.

@@ -128,7 +128,7 @@ struct VolPath final : PathIntegrator {
         if (!direct) co_return 0;
         const LaneWeights weights =
             co_await shadow_weights(direct->shadow_ray, medium_beyond(hit, direct->shadow_ray.d, walk.medium),
-                                    walk.weights, path, MediumNumbers(path.samples));
+                                    direct->is_sky, walk.weights, path, MediumNumbers(path.samples));
         co_return weights.from_light(direct->value, direct->light_pdf,
                                      direct->is_delta ? 0 : direct->bsdf_pdf);
     }
@@ -138,8 +138,8 @@ struct VolPath final : PathIntegrator {
         const std::optional<DirectLight> direct =
             propose_light_in_medium(crossing, *walk.medium, walk.ray.time, path);
         if (!direct) co_return 0;
-        const LaneWeights weights = co_await shadow_weights(direct->shadow_ray, walk.medium, walk.weights,
-                                                            path, MediumNumbers(path.samples));
+        const LaneWeights weights = co_await shadow_weights(direct->shadow_ray, walk.medium, direct->is_sky,
+                                                            walk.weights, path, MediumNumbers(path.samples));
         co_return weights.from_light(direct->value, direct->light_pdf,
                                      direct->is_delta ? 0 : direct->bsdf_pdf);
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/lit_room.h"
 #include "tests/support/render_scene.h"
 #include "tests/support/statistics.h"
 
@@ -63,17 +64,6 @@ void expect_agreement(const Setting& setting, bool lightpath) {
     EXPECT_LT(std::abs(t_between(means_of("\"lightpath\"" + depth, 32, setting), reference, 1e-4)), limit);
 }
 
-const std::string floor_and_wall = R"(
-Material "diffuse" "rgb reflectance" [ .7 .6 .5 ]
-Shape "bilinearmesh" "point3 P" [ -2 0 -2  2 0 -2  -2 0 1  2 0 1 ]
-Shape "bilinearmesh" "point3 P" [ -2 0 1  2 0 1  -2 3 1  2 3 1 ]
-)";
-const std::string lamp = R"(
-AttributeBegin
-AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
-Shape "bilinearmesh" "point3 P" [ -.5 1.9 -.5  .5 1.9 -.5  -.5 1.9 .5  .5 1.9 .5 ]
-AttributeEnd
-)";
 const std::string ball = R"(
 Translate 0 .5 0
 Shape "sphere" "float radius" .4

@@ -91,6 +91,32 @@ Shape "bilinearmesh" "point3 P" [ -1 -1 2  1 -1 2  -1 1 2  1 1 2 ]
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.rgb(x, y)[c] / expected[c], 1, 1e-4f);
 }
 
+// Fog without end, which red light does not notice: half of the sky's comes back from the floor, found by
+// leaving the fog and by light sampling, of which only the other colours see how far away the sky is taken to
+// be.
+TEST(MediaClosedForm, SkyBeyondEndlessMatterThatIsClearInOneChannel) {
+    for (const char* compensate : {"true", "false"}) {
+        const std::string text = fmt::format(R"(
+Integrator "volpath" "integer maxdepth" 2
+Sampler "independent" "integer pixelsamples" 1024
+PixelFilter "box"
+Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ 0 .5 2 ] "rgb sigma_s" [ 0 0 0 ]
+MediumInterface "" "fog"
+LookAt 0 0 1.5  0 0 2  0 1 0
+Camera "orthographic" "float screenwindow" [ -.01 .01 -.01 .01 ]
+WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ] "bool compensate" {}
+MediumInterface "fog" "fog"
+Material "diffuse" "rgb reflectance" [ .5 .5 .5 ]
+Shape "bilinearmesh" "point3 P" [ -1 -1 2  1 -1 2  -1 1 2  1 1 2 ]
+)",
+                                             compensate);
+        const Moments red = measure(text, ColorMode::rgb).channel[0];
+        EXPECT_NEAR(red.mean, 0.5, 7 * std::sqrt(red.variance_of_mean)) << compensate;
+    }
+}
+
 // One sample fades out to half of itself at the box's faces: three quarters of it, on average, through the
 // middle.
 TEST(MediaClosedForm, AbsorptionOfAGridOfOneCell) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/lit_room.h"
 #include "tests/support/render_scene.h"
 #include "tests/support/statistics.h"
 
@@ -86,17 +87,6 @@ void expect_agreement(const Setting& setting) {
     expect_same(features_of("\"bdpt\"" + depth, 64, setting), reference, 1e-3);
 }
 
-const std::string lamp = R"(
-AttributeBegin
-AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
-Shape "bilinearmesh" "point3 P" [ -.5 1.9 -.5  .5 1.9 -.5  -.5 1.9 .5  .5 1.9 .5 ]
-AttributeEnd
-)";
-const std::string room = R"(
-Material "diffuse" "rgb reflectance" [ .7 .6 .5 ]
-Shape "bilinearmesh" "point3 P" [ -2 0 -2  2 0 -2  -2 0 1  2 0 1 ]
-Shape "bilinearmesh" "point3 P" [ -2 0 1  2 0 1  -2 3 1  2 3 1 ]
-)";
 std::string ball(const std::string& inside, const std::string& outside = "",
                  const std::string& material = "\"interface\"") {
     return fmt::format(R"(
@@ -114,15 +104,15 @@ TEST(BidirectionalMedia, EveryMediumInBothColorModes) {
     for (const char* medium : {"fog", "tinted", "grid", "colors"})
         for (const ColorMode mode : {ColorMode::rgb, ColorMode::spectral}) {
             SCOPED_TRACE(fmt::format("{} {}", medium, static_cast<int>(mode)));
-            expect_agreement({lamp + room + ball(medium), mode});
+            expect_agreement({lamp + floor_and_wall + ball(medium), mode});
         }
 }
 
 TEST(BidirectionalMedia, CameraAndLightsInside) {
     const std::string in_fog = R"(MediumInterface "fog" "fog")";
     for (const ColorMode mode : {ColorMode::rgb, ColorMode::spectral}) {
-        expect_agreement({in_fog + lamp + room, mode, "fog"});
-        expect_agreement({in_fog + lamp + room + ball("tinted", "fog"), mode, "fog"});
+        expect_agreement({in_fog + lamp + floor_and_wall, mode, "fog"});
+        expect_agreement({in_fog + lamp + floor_and_wall + ball("tinted", "fog"), mode, "fog"});
     }
     // A point light and a lamp in a ball of another medium, seen through a lens.
     expect_agreement(
@@ -132,7 +122,8 @@ AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
 Translate .2 .6 0
 Shape "sphere" "float radius" .15
 AttributeEnd
-)" + room + ball("tinted", "fog"),
+)" + floor_and_wall +
+             ball("tinted", "fog"),
          ColorMode::rgb, "fog",
          R"(Camera "perspective" "float fov" 26 "float lensradius" .1 "float focaldistance" 3)"});
 }
@@ -141,8 +132,8 @@ TEST(BidirectionalMedia, LightsThatAreFarAway) {
     const std::string sky = R"(LightSource "infinite" "rgb L" [ .5 .5 .6 ])";
     const std::string sun =
         R"(LightSource "distant" "rgb L" [ .8 .7 .5 ] "point3 from" [ 1 2 -1 ] "point3 to" [ 0 0 0 ])";
-    expect_agreement({sky + room + ball("grid"), ColorMode::spectral});
-    expect_agreement({sky + sun + room + ball("tinted")});
+    expect_agreement({sky + floor_and_wall + ball("grid"), ColorMode::spectral});
+    expect_agreement({sky + sun + floor_and_wall + ball("tinted")});
 }
 
 TEST(BidirectionalMedia, GlassAndSurfacesInside) {
@@ -153,15 +144,16 @@ Translate 0 .8 0
 Shape "sphere" "float radius" .3
 AttributeEnd
 )";
-    expect_agreement({lamp + room + ball("tinted") + core, ColorMode::spectral});
-    expect_agreement({lamp + room + ball("tinted", "", R"("dielectric" "float roughness" .3)")});
+    expect_agreement({lamp + floor_and_wall + ball("tinted") + core, ColorMode::spectral});
+    expect_agreement({lamp + floor_and_wall + ball("tinted", "", R"("dielectric" "float roughness" .3)")});
     expect_agreement(
-        {lamp + room + ball("tinted", "", R"("dielectric" "float roughness" .3 "spectrum eta" "glass-SF11")"),
+        {lamp + floor_and_wall +
+             ball("tinted", "", R"("dielectric" "float roughness" .3 "spectrum eta" "glass-SF11")"),
          ColorMode::spectral});
 }
 
 TEST(BidirectionalMedia, EachStrategyAloneFindsTheSame) {
-    const Setting setting{lamp + room + ball("tinted", "fog"), ColorMode::rgb, "fog"};
+    const Setting setting{lamp + floor_and_wall + ball("tinted", "fog"), ColorMode::rgb, "fog"};
     const std::string text =
         scene_text(R"("bdpt" "integer maxdepth" 3 "bool visualizestrategies" true)", 150, setting);
     std::map<std::string, Features> found;
@@ -189,9 +181,10 @@ TEST(MetropolisMedia, IsThePathTracersPicture) {
     const std::string mlt =
         R"("mlt" "integer maxdepth" 4 "integer bootstrapsamples" 4000 "integer chains" 30)";
     for (const Setting& setting :
-         {Setting{lamp + room + ball("tinted"), ColorMode::spectral}, Setting{lamp + room + ball("grid")},
-          Setting{R"(MediumInterface "fog" "fog")" + lamp + room, ColorMode::rgb, "fog"},
-          Setting{R"(LightSource "infinite" "rgb L" [ .5 .5 .6 ])" + room + ball("colors")}})
+         {Setting{lamp + floor_and_wall + ball("tinted"), ColorMode::spectral},
+          Setting{lamp + floor_and_wall + ball("grid")},
+          Setting{R"(MediumInterface "fog" "fog")" + lamp + floor_and_wall, ColorMode::rgb, "fog"},
+          Setting{R"(LightSource "infinite" "rgb L" [ .5 .5 .6 ])" + floor_and_wall + ball("colors")}})
         expect_same(features_of(mlt, 64, setting),
                     features_of(R"("volpath" "integer maxdepth" 4)", 128, setting), 1e-3);
 }

@@ -9,7 +9,6 @@
 namespace alhazen {
 namespace {
 
-const Bounds3 unit_scene{{-1, -1, -1}, {1, 1, 1}};
 // 3 wide and 2 high, in the plane z = 2 and looked through towards +z.
 const std::vector<Vec3> corners{{-1, -1, 2}, {-1, 1, 2}, {2, 1, 2}, {2, -1, 2}};
 
