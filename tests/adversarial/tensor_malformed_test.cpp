@@ -14,7 +14,7 @@ using testing_support::floats_to_write;
 using testing_support::MeasuredModel;
 using testing_support::tensor_file;
 
-std::string fault_of(const std::string& bytes) {
+std::string tensor_fault(const std::string& bytes) {
     try {
         MeasuredData data(TensorFile(bytes), ColorMode::spectral);
         return "";
@@ -35,20 +35,21 @@ std::string with(const FieldToWrite& changed) {
     std::vector<FieldToWrite> fields = small().fields();
     for (FieldToWrite& f : fields)
         if (f.name == changed.name) f = changed;
-    return fault_of(tensor_file(fields));
+    return tensor_fault(tensor_file(fields));
 }
 
 TEST(MalformedTensor, Headers) {
     using namespace std::string_literals;
-    EXPECT_EQ(fault_of(small().file()), "");
+    EXPECT_EQ(tensor_fault(small().file()), "");
     const std::string expected = "not a tensor file; expected \"tensor_file\"";
-    EXPECT_EQ(fault_of(""), expected);
-    EXPECT_EQ(fault_of("tensor_file"), expected);
-    EXPECT_EQ(fault_of("P6 512 512 255"), expected);
-    EXPECT_EQ(fault_of("tensor_file\0\2\1\0\0\0\0"s), "unknown version 2.1 of tensor files; expected 1.0");
-    EXPECT_EQ(fault_of("tensor_file\0\1\0\1"s), "the file ends within its header");
-    EXPECT_EQ(fault_of("tensor_file\0\1\0\xff\xff\xff\xff"s), "the file ends within its header");
-    EXPECT_EQ(fault_of("tensor_file\0\1\0\0\0\0\0"s), "field \"theta_i\" is missing");
+    EXPECT_EQ(tensor_fault(""), expected);
+    EXPECT_EQ(tensor_fault("tensor_file"), expected);
+    EXPECT_EQ(tensor_fault("P6 512 512 255"), expected);
+    EXPECT_EQ(tensor_fault("tensor_file\0\2\1\0\0\0\0"s),
+              "unknown version 2.1 of tensor files; expected 1.0");
+    EXPECT_EQ(tensor_fault("tensor_file\0\1\0\1"s), "the file ends within its header");
+    EXPECT_EQ(tensor_fault("tensor_file\0\1\0\xff\xff\xff\xff"s), "the file ends within its header");
+    EXPECT_EQ(tensor_fault("tensor_file\0\1\0\0\0\0\0"s), "field \"theta_i\" is missing");
 }
 
 std::string one_field(std::uint8_t type, std::uint64_t offset, const std::vector<std::uint64_t>& shape) {
@@ -58,20 +59,21 @@ std::string one_field(std::uint8_t type, std::uint64_t offset, const std::vector
 }
 
 TEST(MalformedTensor, Fields) {
-    EXPECT_EQ(fault_of(one_field(0, 0, {1})), "field \"abc\" has the unknown type 0");
-    EXPECT_EQ(fault_of(one_field(12, 0, {1})), "field \"abc\" has the unknown type 12");
-    EXPECT_EQ(fault_of(one_field(1, 1000, {1})), "field \"abc\" goes beyond the end of the file");
-    EXPECT_EQ(fault_of(one_field(1, ~std::uint64_t{0}, {1})),
+    EXPECT_EQ(tensor_fault(one_field(0, 0, {1})), "field \"abc\" has the unknown type 0");
+    EXPECT_EQ(tensor_fault(one_field(12, 0, {1})), "field \"abc\" has the unknown type 12");
+    EXPECT_EQ(tensor_fault(one_field(1, 1000, {1})), "field \"abc\" goes beyond the end of the file");
+    EXPECT_EQ(tensor_fault(one_field(1, ~std::uint64_t{0}, {1})),
               "field \"abc\" goes beyond the end of the file");
-    EXPECT_EQ(fault_of(one_field(1, 40, {10})), "field \"abc\" goes beyond the end of the file");
-    EXPECT_EQ(fault_of(one_field(10, 0, {1000})), "field \"abc\" is larger than the file");
+    EXPECT_EQ(tensor_fault(one_field(1, 40, {10})), "field \"abc\" goes beyond the end of the file");
+    EXPECT_EQ(tensor_fault(one_field(10, 0, {1000})), "field \"abc\" is larger than the file");
     // Products that overflow.
-    EXPECT_EQ(fault_of(one_field(10, 0, {1ull << 32, 1ull << 32})), "field \"abc\" is larger than the file");
-    EXPECT_EQ(fault_of(one_field(1, 0, {5, 1ull << 63, 1ull << 63})),
+    EXPECT_EQ(tensor_fault(one_field(10, 0, {1ull << 32, 1ull << 32})),
+              "field \"abc\" is larger than the file");
+    EXPECT_EQ(tensor_fault(one_field(1, 0, {5, 1ull << 63, 1ull << 63})),
               "field \"abc\" is larger than the file");
     std::vector<FieldToWrite> twice = small().fields();
     twice.push_back(twice.back());
-    EXPECT_EQ(fault_of(tensor_file(twice)), "field \"jacobian\" is there twice");
+    EXPECT_EQ(tensor_fault(tensor_file(twice)), "field \"jacobian\" is there twice");
 }
 
 TEST(MalformedTensor, Contents) {
@@ -109,8 +111,8 @@ TEST(MalformedTensor, AnyByteMayBeWrong) {
         // Mostly in the header.
         const std::uint32_t at = rng.below(static_cast<std::uint32_t>(i % 4 == 0 ? bad.size() : 350));
         bad[at] = static_cast<char>(rng.below(256));
-        fault_of(bad);
-        fault_of(good.substr(0, rng.below(static_cast<std::uint32_t>(good.size()))));
+        tensor_fault(bad);
+        tensor_fault(good.substr(0, rng.below(static_cast<std::uint32_t>(good.size()))));
     }
 }
 

@@ -12,10 +12,10 @@ namespace {
 using namespace shape_cases;
 
 /// A picket of shapes in a ring, the ring placed many times, beside shapes of its own.
-struct World {
+struct SmallWorld {
     std::unique_ptr<Object> ring, root;
 
-    explicit World(const AccelChoice& accel) {
+    explicit SmallWorld(const AccelChoice& accel) {
         Rng rng(1);
         auto number = [&] { return 2 * static_cast<double>(rng.uniform()) - 1; };
         auto shapes = [&](double reach) {
@@ -103,7 +103,7 @@ std::vector<Answer> answers(const Object& root, const std::vector<Ray>& rays) {
     }
     return list;
 }
-void expect_same(const Found& a, const Found& b, const World& of_a, const World& of_b) {
+void expect_same(const Found& a, const Found& b, const SmallWorld& of_a, const SmallWorld& of_b) {
     ASSERT_EQ(a.object == nullptr, b.object == nullptr);
     if (!a.object) return;
     // The same object, of two worlds.
@@ -117,7 +117,7 @@ void expect_same(const Found& a, const Found& b, const World& of_a, const World&
 }
 
 TEST(Instances, AreFoundAsByTryingEverything) {
-    World world(AccelChoice{});
+    SmallWorld world(AccelChoice{});
     auto rays = rays_through(*world.root, 4000);
     int hits = 0, inside = 0, different = 0;
     auto list = answers(*world.root, rays);
@@ -137,13 +137,13 @@ TEST(Instances, AreFoundAsByTryingEverything) {
 }
 
 TEST(Instances, GiveTheSameBitsWithEveryBuilderAndWalk) {
-    World reference(AccelChoice{"sah", "stack", {}});
+    SmallWorld reference(AccelChoice{"sah", "stack", {}});
     auto rays = rays_through(*reference.root, 1000);
     auto expected = answers(*reference.root, rays);
     for (const AccelBuilder& builder : accel_builders())
         for (const AccelWalk& walk : accel_walks()) {
             SCOPED_TRACE(std::string(builder.name) + "/" + std::string(walk.name));
-            World world(AccelChoice{std::string(builder.name), std::string(walk.name), {}});
+            SmallWorld world(AccelChoice{std::string(builder.name), std::string(walk.name), {}});
             auto found = answers(*world.root, rays);
             std::vector<Intersection> hits(rays.size());
             std::vector<Found> batch(rays.size());

@@ -7,7 +7,7 @@
 namespace alhazen::testing {
 namespace {
 
-const char* const scene = R"(
+const char* const everything = R"(
 Integrator "path" "integer maxdepth" 5
 Sampler "zsobol" "integer pixelsamples" 8
 Film "rgb" "integer xresolution" 53 "integer yresolution" 37
@@ -44,7 +44,7 @@ Image rendered(int threads, int tile_size, int paths_in_flight = 100) {
     settings.threads = threads;
     settings.tile_size = tile_size;
     settings.paths_in_flight = paths_in_flight;
-    return render_text(scene, settings).image;
+    return render_text(everything, settings).image;
 }
 
 TEST(Determinism, ThreadsAndTilesDoNotChangeABit) {
@@ -52,7 +52,7 @@ TEST(Determinism, ThreadsAndTilesDoNotChangeABit) {
     EXPECT_GT(mean_of(reference, 0), 0.05);
     for (int threads : {1, 2, 3})
         for (int tile : {7, 16}) expect_same_bits(rendered(threads, tile), reference);
-    expect_same_bits(render_text(scene, {}).image, reference);
+    expect_same_bits(render_text(everything, {}).image, reference);
 }
 
 TEST(Determinism, RaysInCompanyDoNotChangeABit) {
@@ -70,11 +70,11 @@ TEST(Determinism, EveryIntegratorIsTheSameOnEverySchedule) {
         if (kind.name == "mlt") settings.overrides = {"integrator.bootstrapsamples=2000"};
         settings.paths_in_flight = 1;
         settings.threads = 1;
-        Image alone = render_text(scene, settings).image;
+        Image alone = render_text(everything, settings).image;
         settings.paths_in_flight = 100;
-        expect_same_bits(render_text(scene, settings).image, alone);
+        expect_same_bits(render_text(everything, settings).image, alone);
         settings.threads = 3;
-        expect_same_bits(render_text(scene, settings).image, alone);
+        expect_same_bits(render_text(everything, settings).image, alone);
     }
 }
 
@@ -133,7 +133,7 @@ TEST(Determinism, ACropShowsTheSamePixels) {
     Image whole = rendered(2, 16);
     RenderSettings settings;
     settings.crop = Rect2i{{10, 5}, {31, 20}};
-    Image part = render_text(scene, settings).image;
+    Image part = render_text(everything, settings).image;
     Image expected = whole.crop({{10, 5}, {31, 20}});
     expect_same_bits(part, expected);
 }
@@ -141,14 +141,14 @@ TEST(Determinism, ACropShowsTheSamePixels) {
 TEST(Determinism, AnotherSeedIsAnotherImage) {
     RenderSettings settings;
     settings.seed = 7;
-    Image other = render_text(scene, settings).image;
+    Image other = render_text(everything, settings).image;
     Image reference = rendered(1, 16);
     EXPECT_NE(std::memcmp(other.values().data(), reference.values().data(), other.values().size_bytes()), 0);
 }
 
 TEST(Determinism, CancellingFinishesThePassInHand) {
     Messages messages;
-    auto world = build_world(read_pbrt_string(scene, ".", messages), {}, messages);
+    auto world = build_world(read_pbrt_string(everything, ".", messages), {}, messages);
     std::atomic<bool> cancel{true};
     RenderWatch watch;
     watch.cancel = &cancel;
@@ -165,7 +165,7 @@ TEST(Determinism, CancellingFinishesThePassInHand) {
 TEST(Determinism, RaysAreCountedByKind) {
     RenderSettings settings;
     settings.threads = 2;
-    RenderStats stats = render_text(scene, settings).stats;
+    RenderStats stats = render_text(everything, settings).stats;
     EXPECT_EQ(stats.rays.camera, 53u * 37u * 8u);
     EXPECT_GT(stats.rays.bounce, stats.rays.camera / 4);
     EXPECT_GT(stats.rays.shadow, stats.rays.camera / 5);

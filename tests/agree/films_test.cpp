@@ -27,7 +27,7 @@ std::string scene_on(const std::string& film, const std::string& integrator = "p
            "Material \"diffuse\" \"rgb reflectance\" [ .7 .5 .3 ]\n"
            "Shape \"bilinearmesh\" \"point3 P\" [ -20 0 -5  20 0 -5  -20 4 30  20 4 30 ]\n";
 }
-RenderSettings in(ColorMode mode) {
+RenderSettings settings_in(ColorMode mode) {
     RenderSettings settings;
     settings.color = mode;
     return settings;
@@ -58,8 +58,8 @@ Vec3 direction(int x, int y) {
 
 TEST(GBuffer, ColourIsThatOfTheRgbFilm) {
     for (ColorMode mode : {ColorMode::rgb, ColorMode::spectral}) {
-        const Image rgb = render_text(scene_on("rgb"), in(mode)).image;
-        const Image more = render_text(scene_on("gbuffer"), in(mode)).image;
+        const Image rgb = render_text(scene_on("rgb"), settings_in(mode)).image;
+        const Image more = render_text(scene_on("gbuffer"), settings_in(mode)).image;
         for (int y = 0; y < rgb.height(); ++y)
             for (int x = 0; x < rgb.width(); ++x) ASSERT_EQ(more.rgb(x, y), rgb.rgb(x, y)) << x << " " << y;
     }
@@ -116,7 +116,7 @@ TEST(GBuffer, PlacesAreThoseSeenFromWhereTheCameraIsThen) {
 
 TEST(GBuffer, AlbedoIsTheMaterialsColour) {
     for (ColorMode mode : {ColorMode::rgb, ColorMode::spectral}) {
-        RenderSettings settings = in(mode);
+        RenderSettings settings = settings_in(mode);
         settings.spp = 256;
         const Image image = render_text(scene_on("gbuffer"), settings).image;
         expect_near(vector_at(image, 5, 15, "Albedo", "RGB"), {0.7f, 0.5f, 0.3f}, 0.02f);
@@ -125,7 +125,7 @@ TEST(GBuffer, AlbedoIsTheMaterialsColour) {
 }
 
 TEST(GBuffer, VarianceIsThatOfTheSamples) {
-    RenderSettings settings = in(ColorMode::rgb);
+    RenderSettings settings = settings_in(ColorMode::rgb);
     settings.spp = 1024;
     settings.overrides = {"sampler.seed=1"};
     std::string scene = scene_on("gbuffer");
@@ -195,7 +195,7 @@ TEST(SpectralFilm, RangesHoldTheLightsSpectrum) {
 }
 
 TEST(SpectralFilm, ColourIsThatOfTheRgbFilm) {
-    RenderSettings settings = in(ColorMode::spectral);
+    RenderSettings settings = settings_in(ColorMode::spectral);
     settings.spp = 512;
     const Image rgb = render_text(scene_on("rgb"), settings).image;
     const Image more = render_text(scene_on("spectral"), settings).image;
@@ -204,7 +204,8 @@ TEST(SpectralFilm, ColourIsThatOfTheRgbFilm) {
 }
 
 TEST(SpectralFilm, SaysWhatItNeeds) {
-    EXPECT_THAT(error_of(scene_on("spectral"), in(ColorMode::rgb)), HasSubstr("needs spectral colours"));
+    EXPECT_THAT(error_of(scene_on("spectral"), settings_in(ColorMode::rgb)),
+                HasSubstr("needs spectral colours"));
     EXPECT_THAT(error_of(scene_on("spectral", "mlt")), HasSubstr("not possible with film \"spectral\""));
     std::string scene = scene_on("spectral");
     scene.replace(scene.find("\"spectral\""), 10,

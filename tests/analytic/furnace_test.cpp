@@ -12,12 +12,9 @@
 namespace alhazen::testing {
 namespace {
 
-constexpr int seeds = 16;
-constexpr double limit = 7;
-
 std::vector<double> green_means(const std::string& text, RenderSettings settings) {
     std::vector<double> means;
-    for (int seed = 0; seed < seeds; ++seed) {
+    for (int seed = 0; seed < t_test_seeds; ++seed) {
         settings.seed = static_cast<std::uint64_t>(seed);
         means.push_back(mean_of(render_text(text, settings).image, 1));
     }
@@ -59,7 +56,7 @@ Shape "sphere" "float radius" 2
 )";
     RenderSettings settings;
     settings.color = GetParam().mode;
-    EXPECT_LT(std::abs(t_against(green_means(text, settings), 1 - std::pow(2.0, -10), 1e-3)), limit);
+    EXPECT_LT(std::abs(t_against(green_means(text, settings), 1 - std::pow(2.0, -10), 1e-3)), t_test_limit);
 }
 
 // A uniform sky of radiance 1 over a diffuse sphere of albedo rho: a convex body reflects no light to itself,
@@ -73,7 +70,7 @@ Shape "sphere" "float radius" 2
 )";
     RenderSettings settings;
     settings.color = GetParam().mode;
-    EXPECT_LT(std::abs(t_against(green_means(text, settings), 0.6, 1e-3)), limit);
+    EXPECT_LT(std::abs(t_against(green_means(text, settings), 0.6, 1e-3)), t_test_limit);
 }
 
 std::vector<Case> all_cases() {
@@ -101,7 +98,7 @@ TEST(FurnaceSpecular, MirrorAndGlassVanishInAUniformSky) {
                            "\nTranslate 0 0 3\nShape \"sphere\" \"float radius\" 2\n";
         RenderSettings settings;
         settings.color = ColorMode::rgb;
-        EXPECT_LT(std::abs(t_against(green_means(text, settings), 1.0, 2e-3)), limit) << line;
+        EXPECT_LT(std::abs(t_against(green_means(text, settings), 1.0, 2e-3)), t_test_limit) << line;
     }
 }
 
@@ -119,7 +116,7 @@ Rotate 90 1 0 0
 Shape "disk" "float radius" 100
 )",
                                        cosine);
-        EXPECT_LT(std::abs(t_against(green_means(text, {}), 1.0, 1e-3)), limit) << cosine;
+        EXPECT_LT(std::abs(t_against(green_means(text, {}), 1.0, 1e-3)), t_test_limit) << cosine;
     }
 }
 
@@ -138,7 +135,8 @@ WorldBegin
 Shape "bilinearmesh" "point3 P" [ -1000 0 -1000  1000 0 -1000  -1000 0 1000  1000 0 1000 ]
 Shape "bilinearmesh" "point3 P" [ -1000 0 1  1000 0 1  -1000 1 1  1000 1 1 ]
 )";
-    EXPECT_LT(std::abs(t_against(green_means(text, {}), 1 - (1 - 1 / std::sqrt(2.0)) / 2, 1e-3)), limit);
+    EXPECT_LT(std::abs(t_against(green_means(text, {}), 1 - (1 - 1 / std::sqrt(2.0)) / 2, 1e-3)),
+              t_test_limit);
 }
 
 } // namespace

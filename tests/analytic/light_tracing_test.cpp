@@ -11,9 +11,6 @@
 namespace alhazen::testing {
 namespace {
 
-constexpr int seeds = 16;
-constexpr double limit = 7;
-
 const char* const perspective = R"(Camera "perspective" "float fov" 36)";
 
 struct Setting {
@@ -48,7 +45,7 @@ double mean_of_colors(const Image& image) {
 
 std::vector<double> means_of(const std::string& integrator, int spp, const Setting& setting) {
     std::vector<double> means;
-    for (int seed = 0; seed < seeds; ++seed)
+    for (int seed = 0; seed < t_test_seeds; ++seed)
         means.push_back(mean_of_colors(
             render_text(scene_text(integrator, spp, setting), settings_of(setting, seed)).image));
     return means;
@@ -59,9 +56,10 @@ void expect_agreement(const Setting& setting, bool lightpath) {
     const std::string depth = R"( "integer maxdepth" 3)";
     const auto reference = means_of("\"path\"" + depth, 32, setting);
     ASSERT_GT(moments(reference).mean, 1e-3);
-    EXPECT_LT(std::abs(t_between(means_of("\"bdpt\"" + depth, 8, setting), reference, 1e-4)), limit);
+    EXPECT_LT(std::abs(t_between(means_of("\"bdpt\"" + depth, 8, setting), reference, 1e-4)), t_test_limit);
     if (!lightpath) return;
-    EXPECT_LT(std::abs(t_between(means_of("\"lightpath\"" + depth, 32, setting), reference, 1e-4)), limit);
+    EXPECT_LT(std::abs(t_between(means_of("\"lightpath\"" + depth, 32, setting), reference, 1e-4)),
+              t_test_limit);
 }
 
 const std::string ball = R"(
@@ -164,7 +162,7 @@ void expect_same_strategies(const Setting& setting) {
     const std::string text =
         scene_text(R"("bdpt" "integer maxdepth" 3 "bool visualizestrategies" true)", 100, setting);
     std::map<std::string, std::vector<double>> means;
-    for (int seed = 0; seed < seeds; ++seed) {
+    for (int seed = 0; seed < t_test_seeds; ++seed) {
         Messages messages;
         auto world = build_world(read_pbrt_string(text, ".", messages), settings_of(setting, seed), messages);
         render(*world, settings_of(setting, seed), {});
@@ -178,7 +176,7 @@ void expect_same_strategies(const Setting& setting) {
         ASSERT_GT(moments(reference).mean, 1e-3);
         for (const auto& [name, values] : means) {
             if (name.find(std::string("d0") + depth) == std::string::npos) continue;
-            EXPECT_LT(std::abs(t_between(values, reference, 1e-3)), limit) << name;
+            EXPECT_LT(std::abs(t_between(values, reference, 1e-3)), t_test_limit) << name;
         }
     }
 }
@@ -221,7 +219,7 @@ struct Halves {
 
 Halves halves_of(const std::string& integrator, int spp, const Setting& setting) {
     Halves halves;
-    for (int seed = 0; seed < seeds; ++seed) {
+    for (int seed = 0; seed < t_test_seeds; ++seed) {
         const Image image =
             render_text(scene_text(integrator, spp, setting), settings_of(setting, seed)).image;
         double sums[2] = {0, 0};
@@ -236,8 +234,8 @@ Halves halves_of(const std::string& integrator, int spp, const Setting& setting)
 }
 
 void expect_same_halves(const Halves& a, const Halves& b, double floor) {
-    EXPECT_LT(std::abs(t_between(a.upper, b.upper, floor)), limit);
-    EXPECT_LT(std::abs(t_between(a.lower, b.lower, floor)), limit);
+    EXPECT_LT(std::abs(t_between(a.upper, b.upper, floor)), t_test_limit);
+    EXPECT_LT(std::abs(t_between(a.lower, b.lower, floor)), t_test_limit);
 }
 
 // Chains keep to where it is bright; the picture must not.

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "image/codec.h"
+#include "tests/support/effort.h"
 #include "tests/support/render_scene.h"
 #include "tests/support/statistics.h"
 
 namespace alhazen::testing {
 namespace {
+
+using testing_support::fewer_if_sanitized;
 
 // Parallel rays along +z through the middle of a box of 2 x 2 x 2, from in front of it.
 std::string through_the_box(const std::string& integrator, int spp, const std::string& medium,
@@ -31,7 +34,6 @@ Shape "trianglemesh" "point3 P" [ -1 -1 -1  1 -1 -1  -1 1 -1  1 1 -1  -1 -1 1  1
 }
 
 const char* const volpath = R"(Integrator "volpath" "integer maxdepth" 100)";
-const char* const white_sky = R"(LightSource "infinite" "rgb L" [ 1 1 1 ])";
 
 // Means of the three channels, with their standard errors over seeds.
 struct Measured {
@@ -228,8 +230,10 @@ TEST(MediaAgreement, LightSamplingOrNot) {
                     return means_of_seeds(text, mode);
                 };
                 EXPECT_LT(
-                    std::abs(t_between(means(R"(Integrator "simplevolpath" "integer maxdepth" 12)", 256),
-                                       means(R"(Integrator "volpath" "integer maxdepth" 12)", 48), 1e-4)),
+                    std::abs(t_between(
+                        means(R"(Integrator "simplevolpath" "integer maxdepth" 12)", fewer_if_sanitized(256)),
+                        means(R"(Integrator "volpath" "integer maxdepth" 12)", fewer_if_sanitized(48)),
+                        1e-4)),
                     7);
             }
 }
@@ -251,12 +255,13 @@ TEST(MediaAgreement, PicturesOfTheSkyDrawnWholeOrInPart) {
         return means_of_seeds(whole_box(integrator, spp, medium, sky), ColorMode::rgb);
     };
     const std::vector<double> expected =
-        means(R"(Integrator "simplevolpath" "integer maxdepth" 12)", 256, true);
+        means(R"(Integrator "simplevolpath" "integer maxdepth" 12)", fewer_if_sanitized(256), true);
     for (bool compensate : {true, false})
-        EXPECT_LT(
-            std::abs(t_between(expected,
-                               means(R"(Integrator "volpath" "integer maxdepth" 12)", 64, compensate), 1e-4)),
-            7)
+        EXPECT_LT(std::abs(t_between(expected,
+                                     means(R"(Integrator "volpath" "integer maxdepth" 12)",
+                                           fewer_if_sanitized(64), compensate),
+                                     1e-4)),
+                  7)
             << compensate;
 }
 

@@ -12,8 +12,7 @@
 namespace alhazen::testing {
 namespace {
 
-constexpr int seeds = 8;
-const char* const white_sky = R"(LightSource "infinite" "rgb L" [ 1 1 1 ])";
+constexpr int few_seeds = 8;
 const char* const plane = R"(Shape "bilinearmesh" "point3 P" [ -90 -90 0  90 -90 0  -90 90 0  90 90 0 ])";
 // Mean free paths of 1/10, and albedos of 0.9, 0.98, 0.999.
 const char* const matter =
@@ -40,7 +39,7 @@ WorldBegin
 // Of three channels; in spectral mode of matter without colour, all three are alike.
 std::array<std::vector<double>, 3> means_of(const std::string& text, ColorMode mode = ColorMode::rgb) {
     std::array<std::vector<double>, 3> means;
-    for (int seed = 0; seed < seeds; ++seed) {
+    for (int seed = 0; seed < few_seeds; ++seed) {
         RenderSettings settings;
         settings.seed = static_cast<std::uint64_t>(seed);
         settings.color = mode;
@@ -153,7 +152,7 @@ TEST(Subsurface, LampAgreesWithBruteForce) {
     const Bssrdf bssrdf(table(), Spectrum(1, 0.2f, 0.01f, 0.4f), Spectrum(9, 9.8f, 9.99f, 9.6f),
                         Wavelengths::rgb());
     std::array<std::vector<double>, 3> brute;
-    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    for (std::uint64_t seed = 0; seed < few_seeds; ++seed) {
         Rng rng(seed);
         Vec3 sum;
         constexpr int n = 100000;

@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr TransportMode modes[] = {TransportMode::radiance, TransportMode::importance};
+constexpr TransportMode transport_modes[] = {TransportMode::radiance, TransportMode::importance};
 
 Vec3 direction(float degrees_from_z, float azimuth_degrees) {
     float theta = radians(degrees_from_z), phi = radians(azimuth_degrees);
@@ -31,7 +31,7 @@ const std::vector<Vec3>& view_directions() {
     return all;
 }
 
-const std::vector<BsdfCase>& cases() {
+const std::vector<BsdfCase>& bsdf_cases() {
     static const BsdfCases all;
     return all.list();
 }
@@ -52,9 +52,9 @@ bool near(Spectrum a, Spectrum b, float relative) {
 
 template <class Test>
 void for_each_case(Test test) {
-    for (const BsdfCase& c : cases())
+    for (const BsdfCase& c : bsdf_cases())
         for (Vec3 wo : view_directions())
-            for (TransportMode mode : modes) {
+            for (TransportMode mode : transport_modes) {
                 SCOPED_TRACE(describe(c, wo, mode));
                 test(c, wo, mode);
                 if (::testing::Test::HasFailure()) return;
@@ -112,7 +112,7 @@ Mean mean_f(const BsdfCase& c, Vec3 wo, Vec3 wi) {
 
 TEST(Bsdf, EveryKindHasExamples) {
     for (const auto& kind : material_kinds().all()) EXPECT_GE(kind.doc().examples.size(), 1u) << kind.name;
-    EXPECT_GE(cases().size(), 25u);
+    EXPECT_GE(bsdf_cases().size(), 25u);
 }
 
 TEST(Bsdf, SamplesAgreeWithEvaluation) {
@@ -141,7 +141,7 @@ TEST(Bsdf, WhatIsScatteredCanBeDrawn) {
 // Such hits come with any frame around the normal.
 TEST(Bsdf, WhatNeedsNoParametersIsAlikeInAllDirectionsAround) {
     int tested = 0;
-    for (const BsdfCase& c : cases()) {
+    for (const BsdfCase& c : bsdf_cases()) {
         if (!c.plain) continue;
         SCOPED_TRACE(c.name);
         ++tested;
@@ -172,7 +172,7 @@ TEST(Bsdf, ExtremeNumbersAreSafe) {
                     if (s) check_sample(c, wo, mode, *s);
                 }
     });
-    for (const BsdfCase& c : cases()) {
+    for (const BsdfCase& c : bsdf_cases()) {
         Vec3 tangent{1, 0, 0};
         EXPECT_EQ(c.bsdf->eval(tangent, {0, 0, 1}).pdf, 0) << c.name;
         EXPECT_EQ(c.bsdf->eval({0, 0, 1}, tangent).f.max(), 0) << c.name;
@@ -261,7 +261,8 @@ std::vector<double> cell_counts(const Bsdf& bsdf, Vec3 wo, TransportMode mode, i
 TEST(Bsdf, SampledDirectionsFollowTheDensity) {
     constexpr int samples = 40000;
     Rng rng(2);
-    auto count = static_cast<int>(cases().size() * view_directions().size() * std::size(modes));
+    auto count =
+        static_cast<int>(bsdf_cases().size() * view_directions().size() * std::size(transport_modes));
     double level = sidak_level(1e-4, count);
     for_each_case([&](const BsdfCase& c, Vec3 wo, TransportMode mode) {
         // Whose density is only near: see the test of its mean.
@@ -343,7 +344,7 @@ TEST(Bsdf, StochasticSamplesAgreeWithEvaluationsInTheMean) {
 // the density of the way back is the density of the reversed pair.
 TEST(Bsdf, IsReciprocal) {
     Rng rng(3);
-    for (const BsdfCase& c : cases()) {
+    for (const BsdfCase& c : bsdf_cases()) {
         SCOPED_TRACE(c.name);
         for (int i = 0; i < 400; ++i) {
             Vec3 wo = sample_sphere({rng.uniform(), rng.uniform()});
@@ -369,7 +370,7 @@ TEST(Bsdf, IsReciprocal) {
 // Refraction squeezes radiance by eta^2 (Veach 1997, section 5.2): the two modes differ by that alone.
 TEST(Bsdf, ModesDifferByEtaSquared) {
     Rng rng(4);
-    for (const BsdfCase& c : cases())
+    for (const BsdfCase& c : bsdf_cases())
         for (Vec3 wo : view_directions())
             for (int i = 0; i < 50 && is_symmetric(c); ++i) {
                 float u = rng.uniform();
@@ -430,7 +431,7 @@ TEST(Bsdf, WhiteFurnaceKeepsEnergy) {
 
 // Whatever the numbers, a specular surface chooses one of its lobes with certainty.
 TEST(Bsdf, SpecularChancesSumToOne) {
-    for (const BsdfCase& c : cases()) {
+    for (const BsdfCase& c : bsdf_cases()) {
         if (has(c.bsdf->lobes(), Lobes::diffuse | Lobes::glossy) || c.bsdf->lobes() == Lobes::none) continue;
         for (Vec3 wo : view_directions()) {
             float chances[2] = {0, 0}, weights[2] = {0, 0};
@@ -442,8 +443,8 @@ TEST(Bsdf, SpecularChancesSumToOne) {
                 chances[side] = s->pdf;
                 weights[side] = s->f[0];
             }
-            EXPECT_NEAR(chances[0] + chances[1], 1, 1e-3f) << describe(c, wo, modes[1]);
-            EXPECT_LE(weights[0] + weights[1], 1 + 1e-5f) << describe(c, wo, modes[1]);
+            EXPECT_NEAR(chances[0] + chances[1], 1, 1e-3f) << describe(c, wo, transport_modes[1]);
+            EXPECT_LE(weights[0] + weights[1], 1 + 1e-5f) << describe(c, wo, transport_modes[1]);
         }
     }
 }

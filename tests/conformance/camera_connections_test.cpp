@@ -11,15 +11,12 @@ namespace {
 
 using testing_support::chi_square_2d;
 using testing_support::p_threshold;
+using testing_support::random_pair;
 
-constexpr Vec2i resolution{80, 60};
+constexpr Vec2i film_size{80, 60};
 /// Turned, mirrored and stretched: directions are no longer those of camera space.
 const Matrix4 stretched =
     Matrix4::translate({3, -2, 1}) * Matrix4::rotate(35, {1, 2, 3}) * Matrix4::scale({2, -1, 0.5});
-
-Vec2 random_pair(Rng& rng) {
-    return {rng.uniform(), rng.uniform()};
-}
 
 /// The plane at distance z from a camera, with coordinates of camera space.
 struct Plane {
@@ -45,8 +42,8 @@ struct Plane {
     /// Importance of a unit of area of camera space at p; 0 where the film does not reach.
     double importance(const Camera& camera, Vec2 p, Vec2 lens) const {
         auto c = camera.sample_towards(point(p), lens, 0);
-        if (!c || c->film.x < 0 || c->film.y < 0 || c->film.x > static_cast<float>(resolution.x) ||
-            c->film.y > static_cast<float>(resolution.y))
+        if (!c || c->film.x < 0 || c->film.y < 0 || c->film.x > static_cast<float>(film_size.x) ||
+            c->film.y > static_cast<float>(film_size.y))
             return 0;
         return static_cast<double>(c->density * abs_dot(c->d, normal()) * area());
     }
@@ -105,7 +102,7 @@ TEST(CameraConnections, AreTheCamerasOwnRays) {
     for (const Matrix4& world : {Matrix4{}, stretched}) {
         auto prepare = [&](BuildContext& context) {
             context.base_folder = ALHAZEN_SOURCE_DIR "/scenes";
-            context.film_resolution = resolution;
+            context.film_resolution = film_size;
             context.world_from_node = Transform(world);
         };
         auto visit = [&](const std::string&, const std::string&, const Camera& camera) {
@@ -124,7 +121,7 @@ TEST(CameraConnections, AreTheCamerasOwnRays) {
     }
     EXPECT_EQ(receiving, 2 * 6);
     EXPECT_FALSE(testing_support::make_member(camera_kinds(), "spherical", {}, [](BuildContext& context) {
-                     context.film_resolution = resolution;
+                     context.film_resolution = film_size;
                  })->receives_light());
 }
 

@@ -9,16 +9,16 @@
 namespace alhazen {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using testing_support::chi_square_2d;
 using testing_support::messages_of;
 using testing_support::p_threshold;
 
-constexpr Vec2i resolution{800, 600};
+constexpr Vec2i large_film{800, 600};
 
 std::unique_ptr<Camera> make_camera(std::string type, std::vector<Parameter> parameters,
-                                    Matrix4 world_from_camera = {}, Vec2i size = resolution) {
+                                    Matrix4 world_from_camera = {}, Vec2i size = large_film) {
     return testing_support::make_member(camera_kinds(), std::move(type), std::move(parameters),
                                         [&](BuildContext& context) {
                                             context.world_from_node = Transform(world_from_camera);
@@ -39,7 +39,7 @@ void expect_near(Vec3 a, Vec3 b, float tolerance) {
 TEST(CameraConformance, RaysHaveUnitDirectionsAndTimesInTheShutter) {
     auto prepare = [](BuildContext& context) {
         context.base_folder = ALHAZEN_SOURCE_DIR "/scenes";
-        context.film_resolution = resolution;
+        context.film_resolution = large_film;
         context.world_from_node = Transform(Matrix4::translate({3, -2, 1}) * Matrix4::rotate(35, {1, 2, 3}) *
                                             Matrix4::scale({2, 2, 2}));
     };

@@ -4,26 +4,22 @@
 #include "tests/support/density_test.h"
 #include "tests/support/family.h"
 #include "tests/support/glowing_shapes.h"
+#include "tests/support/light_probe.h"
 
 namespace alhazen {
 namespace {
 
 using testing_support::chi_square_2d;
 using testing_support::p_threshold;
+using testing_support::random_pair;
 
-const Bounds3 scene{{-4, -4, -4}, {4, 4, 4}};
-const Wavelengths white = Wavelengths::rgb();
 constexpr double pi_d = 3.14159265358979323846;
-
-Vec2 random_pair(Rng& rng) {
-    return {rng.uniform(), rng.uniform()};
-}
 
 void check_contract(const Light& light) {
     Rng rng(1);
     for (int i = 0; i < 2000; ++i) {
         const float time = rng.uniform();
-        auto s = light.sample_leaving(random_pair(rng), random_pair(rng), white, time);
+        auto s = light.sample_leaving(random_pair(rng), random_pair(rng), rgb_lanes, time);
         if (!s) continue;
         ASSERT_NEAR(length(s->ray.d), 1, 1e-5f);
         ASSERT_EQ(s->ray.time, time);
@@ -56,7 +52,7 @@ void check_directions(const Light& light) {
     if (is_point) widest = std::min(pi, std::acos(bounds->cos_normals) + std::acos(bounds->cos_falloff));
     Rng rng(3);
     auto sample = [&](Vec2 u) {
-        auto s = light.sample_leaving(random_pair(rng), u, white, 0);
+        auto s = light.sample_leaving(random_pair(rng), u, rgb_lanes, 0);
         if (!s) return Vec2(-100, 0);
         Vec3 w = (s->ng == Vec3() ? middle : Frame::from_z(s->ng)).to_local(s->ray.d);
         float phi = std::atan2(w.y, w.x);
@@ -71,18 +67,18 @@ void check_directions(const Light& light) {
     EXPECT_GT(chi_square_2d(sample, density, box, 50000, 16, 96), p_threshold);
 }
 
-void check_power(const Light& light) {
+void check_leaving_power(const Light& light) {
     Rng rng(4);
     constexpr int n = 50000;
     double sum = 0, squares = 0;
     for (int i = 0; i < n; ++i) {
-        auto s = light.sample_leaving(random_pair(rng), random_pair(rng), white, 0);
+        auto s = light.sample_leaving(random_pair(rng), random_pair(rng), rgb_lanes, 0);
         const double flux = s ? static_cast<double>(s->flux()[1]) : 0;
         sum += flux;
         squares += flux * flux;
     }
     const double mean = sum / n, error = std::sqrt(std::max(0.0, squares / n - mean * mean) / n);
-    const auto power = static_cast<double>(light.power(white)[1]);
+    const auto power = static_cast<double>(light.power(rgb_lanes)[1]);
     EXPECT_NEAR(mean, power, 5 * error + 1e-4 * power);
 }
 
@@ -108,7 +104,7 @@ Measured leaving_flux(const Light& light, const Disk& disk, const Shape* shape) 
     constexpr int n = 50000;
     double sum = 0, squares = 0;
     for (int i = 0; i < n; ++i) {
-        auto s = light.sample_leaving(random_pair(rng), random_pair(rng), white, 0);
+        auto s = light.sample_leaving(random_pair(rng), random_pair(rng), rgb_lanes, 0);
         if (!s || dot(s->ray.d, disk.normal) >= 0) continue;
         Ray ray = s->ray;
         ray.tmax = dot(disk.center - ray.o, disk.normal) / dot(ray.d, disk.normal);
@@ -131,7 +127,7 @@ Measured arriving_flux(const Light& light, const Disk& disk, const Shape* shape)
         Hit at;
         at.p = disk.center + frame.x * d.x + frame.y * d.y;
         at.ng = at.ns = disk.normal;
-        auto s = light.sample({at.p, at.ns}, random_pair(rng), white);
+        auto s = light.sample({at.p, at.ns}, random_pair(rng), rgb_lanes);
         if (!s || !is_free(shape, at.spawn_to(s->p, s->p_error, s->ng))) continue;
         const float e = s->L[1] * std::max(0.0f, dot(s->wi, disk.normal)) / s->pdf;
         const double flux = static_cast<double>(e * pi * sqr(disk.radius));
@@ -153,8 +149,8 @@ void check_disk(const Light& light, const Disk& disk, const Shape* shape = nullp
 void check_light(const Light& light, const Disk& disk, const Shape* shape = nullptr) {
     check_contract(light);
     if (!light.is_far() || !light.is_delta()) check_directions(light);
-    if (auto s = light.sample_leaving({0.5f, 0.5f}, {0.5f, 0.5f}, white, 0); s && s->fades)
-        check_power(light);
+    if (auto s = light.sample_leaving({0.5f, 0.5f}, {0.5f, 0.5f}, rgb_lanes, 0); s && s->fades)
+        check_leaving_power(light);
     check_disk(light, disk, shape);
 }
 
@@ -170,7 +166,7 @@ Image spotted(Vec2i size) {
 std::optional<LeavingLight> any_leaving(const Light& light) {
     Rng rng(12);
     for (int i = 0; i < 10000; ++i)
-        if (auto s = light.sample_leaving(random_pair(rng), random_pair(rng), white, 0)) return s;
+        if (auto s = light.sample_leaving(random_pair(rng), random_pair(rng), rgb_lanes, 0)) return s;
     return std::nullopt;
 }
 
@@ -192,7 +188,7 @@ TEST(LeavingLight, EveryDocumentedLight) {
                 SCOPED_TRACE(kind.name + ", " + example.name);
                 auto light = make_light(kind.name, example.parameters, {ColorMode::rgb, world, folder});
                 ASSERT_TRUE(light);
-                light->prepare(scene);
+                light->prepare(wide_scene);
                 auto from = any_leaving(*light);
                 ASSERT_TRUE(from);
                 // Lit by every light: where one arrives from, a disk faces it.
@@ -213,7 +209,7 @@ TEST(LeavingLight, StretchedSpot) {
     auto light = make_light("spot", {make_float("coneangle", 60), make_float("conedeltaangle", 40)},
                             {ColorMode::rgb, Matrix4::rotate(30, {1, 1, 0}) * Matrix4::scale({3, 1, 0.5})});
     ASSERT_TRUE(light);
-    auto from = light->sample_leaving({}, {0.3f, 0.1f}, white, 0);
+    auto from = light->sample_leaving({}, {0.3f, 0.1f}, rgb_lanes, 0);
     ASSERT_TRUE(from);
     check_contract(*light);
     check_directions(*light);
@@ -234,7 +230,7 @@ TEST(LeavingLight, EnvironmentImage) {
                             {ColorMode::rgb, Matrix4::rotate(40, {1, 2, 3}), folder});
     std::filesystem::remove_all(folder);
     ASSERT_TRUE(light);
-    light->prepare(scene);
+    light->prepare(wide_scene);
     check_light(*light, {{0.5f, 1, 0}, normalize(Vec3(1, 1, 1))});
 }
 
@@ -242,7 +238,7 @@ TEST(LeavingLight, FarLightOfASceneWithoutExtentDoesNotLeave) {
     for (const char* kind : {"distant", "infinite"}) {
         auto light = make_light(kind, {});
         light->prepare({{1, 1, 1}, {1, 1, 1}});
-        EXPECT_FALSE(light->sample_leaving({0.5f, 0.5f}, {0.5f, 0.5f}, white, 0));
+        EXPECT_FALSE(light->sample_leaving({0.5f, 0.5f}, {0.5f, 0.5f}, rgb_lanes, 0));
     }
 }
 
@@ -257,7 +253,7 @@ TEST(LeavingLight, EveryDocumentedAreaLightOnEveryShape) {
                 auto description = make_area_light(example.parameters);
                 ASSERT_TRUE(description);
                 auto light = description->attach(*glowing.shape, 0);
-                auto from = light->sample_leaving({0.4f, 0.3f}, {0.2f, 0.2f}, white, 0);
+                auto from = light->sample_leaving({0.4f, 0.3f}, {0.2f, 0.2f}, rgb_lanes, 0);
                 ASSERT_TRUE(from);
                 check_light(*light, {from->p + from->ng * 3.0f, -from->ng}, glowing.shape.get());
             }

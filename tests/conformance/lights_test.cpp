@@ -11,13 +11,8 @@ namespace alhazen {
 namespace {
 
 using testing_support::p_threshold;
+using testing_support::random_pair;
 
-const Bounds3 scene{{-4, -4, -4}, {4, 4, 4}};
-const Wavelengths white = Wavelengths::rgb();
-
-Vec2 random_pair(Rng& rng) {
-    return {rng.uniform(), rng.uniform()};
-}
 LightReceiver random_receiver(Rng& rng) {
     Vec3 p = Vec3(rng.uniform(), rng.uniform(), rng.uniform()) * 8.0f - Vec3(4);
     return {p, sample_sphere(random_pair(rng))};
@@ -28,7 +23,6 @@ Vec3 color_of_power(const Light& light, ColorMode mode) {
 
 // Both modes' lights of one description.
 using TwoModes = std::array<std::unique_ptr<Light>, 2>;
-constexpr ColorMode modes[] = {ColorMode::rgb, ColorMode::spectral};
 
 void check_sample(const Light& light, const LightReceiver& at, const LightSample& s) {
     ASSERT_NEAR(length(s.wi), 1, 1e-5f);
@@ -42,7 +36,7 @@ void check_sample(const Light& light, const LightReceiver& at, const LightSample
         box.hi += s.p_error + Vec3(1e-5f);
         ASSERT_TRUE(box.contains(s.p));
     } else {
-        ASSERT_FALSE(scene.contains(s.p));
+        ASSERT_FALSE(wide_scene.contains(s.p));
         ASSERT_EQ(s.ng, Vec3());
     }
 }
@@ -66,7 +60,7 @@ void check_contract(const Light& light, const Wavelengths& lambda) {
         EXPECT_EQ(light.pdf_escaped({}, {0, 0, 1}), 0);
     }
     ASSERT_TRUE(light.power(lambda).is_finite() && light.power(lambda).min() >= 0);
-    EXPECT_EQ(light.bounds() ? light.bounds()->power > 0 : !light.power(white).is_black(), true);
+    EXPECT_EQ(light.bounds() ? light.bounds()->power > 0 : !light.power(rgb_lanes).is_black(), true);
 }
 
 // Infinite lights: what is sampled is what escaping rays see, and as often as claimed. Those that are seen
@@ -102,12 +96,12 @@ void check_escaped(const Light& light, const Wavelengths& lambda, bool has_edges
 
 // The flux through a sphere around the light, or that of escaping rays through the scene's sphere.
 void check_power(const Light& light) {
-    auto power = static_cast<double>(light.power(white)[0]);
+    auto power = static_cast<double>(light.power(rgb_lanes)[0]);
     auto bounds = light.bounds();
     if (bounds) {
         bool is_point = bounds->bounds.diagonal() == Vec3();
-        double flux = is_point ? flux_through_sphere(light, bounds->bounds.lo, 1, white, 400, 1)
-                               : flux_through_sphere(light, bounds->bounds.centroid(), 20, white, 60, 8);
+        double flux = is_point ? flux_through_sphere(light, bounds->bounds.lo, 1, rgb_lanes, 400, 1)
+                               : flux_through_sphere(light, bounds->bounds.centroid(), 20, rgb_lanes, 60, 8);
         EXPECT_NEAR(flux / power, 1, 0.02);
         return;
     }
@@ -115,12 +109,12 @@ void check_power(const Light& light) {
     double sum = 0;
     constexpr int side = 256;
     if (light.is_delta()) {
-        sum = static_cast<double>(light.sample({}, {}, white)->L[0]);
+        sum = static_cast<double>(light.sample({}, {}, rgb_lanes)->L[0]);
     } else {
         for (int i = 0; i < side * side; ++i) {
             Vec3 d = sample_sphere(
                 {(static_cast<float>(i % side) + 0.5f) / side, (static_cast<float>(i / side) + 0.5f) / side});
-            sum += static_cast<double>(light.escaped({}, d, white)[0]) * 4 * static_cast<double>(pi) /
+            sum += static_cast<double>(light.escaped({}, d, rgb_lanes)[0]) * 4 * static_cast<double>(pi) /
                    (side * side);
         }
     }
@@ -129,8 +123,9 @@ void check_power(const Light& light) {
 
 void check_light(const TwoModes& lights, bool has_portal = false) {
     for (std::size_t i = 0; i < 2; ++i) {
-        const Wavelengths lambda = modes[i] == ColorMode::rgb ? white : Wavelengths::sample_visible(0.3f);
-        lights[i]->prepare(scene);
+        const Wavelengths lambda =
+            both_modes[i] == ColorMode::rgb ? rgb_lanes : Wavelengths::sample_visible(0.3f);
+        lights[i]->prepare(wide_scene);
         check_contract(*lights[i], lambda);
         if (lights[i]->is_infinite()) check_escaped(*lights[i], lambda, has_portal);
     }
@@ -175,7 +170,7 @@ TEST(LightConformance, EveryDocumentedLight) {
                 SCOPED_TRACE(kind.name + ", " + example.name);
                 TwoModes lights;
                 for (std::size_t i = 0; i < 2; ++i)
-                    lights[i] = make_light(kind.name, example.parameters, {modes[i], world, folder});
+                    lights[i] = make_light(kind.name, example.parameters, {both_modes[i], world, folder});
                 ASSERT_TRUE(lights[0] && lights[1]);
                 check_light(lights, has(example, "portal"));
             }
@@ -191,7 +186,7 @@ TEST(LightConformance, EnvironmentImagesOfBothMappings) {
         TwoModes lights;
         for (std::size_t i = 0; i < 2; ++i)
             lights[i] = make_light("infinite", {make_string("filename", "sky.pfm")},
-                                   {modes[i], Matrix4::rotate(40, {1, 2, 3}), folder});
+                                   {both_modes[i], Matrix4::rotate(40, {1, 2, 3}), folder});
         ASSERT_TRUE(lights[0] && lights[1]);
         check_light(lights);
     }
@@ -230,7 +225,7 @@ struct Tally {
 bool is_seen_alike(const GlowingShape& glowing, const Light& light, const LightReceiver& at,
                    const LightSample& s, const Hit& hit) {
     float pdf = light.pdf_hit(at, hit, s.wi);
-    if (!(light.emitted(hit, white) == s.L)) return false;
+    if (!(light.emitted(hit, rgb_lanes) == s.L)) return false;
     if (!glowing.curvature) return std::abs(pdf - s.pdf) <= 1e-5f * s.pdf;
     return testing_support::same_density({s.p, s.p_error, s.pdf}, {hit.p, hit.p_error, pdf}, at.p,
                                          glowing.shape->area(hit.primitive), *glowing.curvature);
@@ -240,7 +235,7 @@ bool is_seen_alike(const GlowingShape& glowing, const Light& light, const LightR
 // otherwise.
 void tally_sample(const GlowingShape& glowing, std::uint32_t primitive, const Light& light,
                   const LightReceiver& at, Vec2 u, Tally& tally, int& unlike) {
-    auto s = light.sample(at, u, white);
+    auto s = light.sample(at, u, rgb_lanes);
     if (!s || dot(s->wi, at.ns) <= 0) return;
     auto hit = trace(*glowing.shape, {at.p, s->wi, infinity, 0});
     float far = hit ? length(hit->p - s->p) : infinity;
@@ -270,7 +265,7 @@ void compare_with_brute_force(const GlowingShape& glowing,
                    (static_cast<float>(i / side) + rng.uniform()) / side};
             Vec3 d = Frame::from_z(at.ns).to_world(sample_cosine_hemisphere(u));
             if (auto hit = trace(shape, {at.p, d, infinity, 0}))
-                looked.add(static_cast<double>(lights[hit->primitive]->emitted(*hit, white)[0] * pi));
+                looked.add(static_cast<double>(lights[hit->primitive]->emitted(*hit, rgb_lanes)[0] * pi));
             for (std::uint32_t p = 0; p < lights.size(); ++p)
                 tally_sample(glowing, p, *lights[p], at, u, sampled, unlike);
         }
@@ -291,13 +286,14 @@ TEST(LightConformance, EveryDocumentedAreaLightOnEveryShape) {
                 SCOPED_TRACE(kind.name + ", " + example.name + ", shape " + std::to_string(number));
                 TwoModes first;
                 for (std::size_t i = 0; i < 2; ++i) {
-                    auto description = make_area_light(example.parameters, {modes[i]});
+                    auto description = make_area_light(example.parameters, {both_modes[i]});
                     ASSERT_TRUE(description);
                     auto lights = attach_all(*description, *glowing.shape);
                     for (const auto& light : lights)
-                        check_contract(
-                            *light, modes[i] == ColorMode::rgb ? white : Wavelengths::sample_visible(0.3f));
-                    if (modes[i] == ColorMode::rgb) compare_with_brute_force(glowing, lights);
+                        check_contract(*light, both_modes[i] == ColorMode::rgb
+                                                   ? rgb_lanes
+                                                   : Wavelengths::sample_visible(0.3f));
+                    if (both_modes[i] == ColorMode::rgb) compare_with_brute_force(glowing, lights);
                     first[i] = std::move(lights[0]);
                 }
                 if (!first[0]->bounds()->two_sided) check_power(*first[0]);

@@ -10,15 +10,15 @@
 namespace alhazen {
 namespace {
 
-struct Case {
+struct SdfCase {
     std::string name;
     std::unique_ptr<PlacedSdf> field;
     bool is_lipschitz = true;
     Box region; ///< the bounds and something around, or a part of them where they do not end
 };
 
-std::vector<Case> make_cases() {
-    std::vector<Case> cases;
+std::vector<SdfCase> make_cases() {
+    std::vector<SdfCase> cases;
     Matrix4 stretched = Matrix4::translate({0.3, -0.2, 0.5}) * Matrix4::rotate(35, {1, 3, 2}) *
                         Matrix4::scale({1.5, -0.7, 1.1});
     for (const Kind<Sdf>& kind : sdf_kinds().all())
@@ -32,7 +32,7 @@ std::vector<Case> make_cases() {
                 context.sdfs = &testing_support::example_sdfs();
                 std::shared_ptr<const Sdf> sdf = kind.make(node, context);
                 messages.throw_if_errors();
-                Case c;
+                SdfCase c;
                 c.name = kind.name + " \"" + example.name + "\"" + (place == Matrix4{} ? "" : " stretched");
                 c.is_lipschitz = sdf->is_lipschitz();
                 c.field = std::make_unique<PlacedSdf>(sdf, place);
@@ -43,8 +43,8 @@ std::vector<Case> make_cases() {
     return cases;
 }
 
-const std::vector<Case>& cases() {
-    static const std::vector<Case> all = make_cases();
+const std::vector<SdfCase>& sdf_cases() {
+    static const std::vector<SdfCase> all = make_cases();
     return all;
 }
 
@@ -68,7 +68,7 @@ TEST(Sdfs, EachKindHasExamples) {
 
 // The Lipschitz bound, over short and long steps, and where the field is steepest: by its own gradient.
 TEST(Sdfs, NoFieldChangesFasterThanDistance) {
-    for (const Case& c : cases()) {
+    for (const SdfCase& c : sdf_cases()) {
         if (!c.is_lipschitz) continue;
         SCOPED_TRACE(c.name);
         Rng rng(1);
@@ -87,7 +87,7 @@ TEST(Sdfs, NoFieldChangesFasterThanDistance) {
 
 // What sphere tracing needs of every field: the surface is nowhere nearer than it says.
 TEST(Sdfs, NoSurfaceIsNearerThanTheFieldSays) {
-    for (const Case& c : cases()) {
+    for (const SdfCase& c : sdf_cases()) {
         SCOPED_TRACE(c.name);
         Rng rng(5);
         for (int i = 0; i < 5000; ++i) {
@@ -104,7 +104,7 @@ TEST(Sdfs, NoSurfaceIsNearerThanTheFieldSays) {
 }
 
 TEST(Sdfs, GradientsAreTheDerivatives) {
-    for (const Case& c : cases()) {
+    for (const SdfCase& c : sdf_cases()) {
         if (!c.is_lipschitz) continue;
         SCOPED_TRACE(c.name);
         Rng rng(2);
@@ -124,7 +124,7 @@ TEST(Sdfs, GradientsAreTheDerivatives) {
 }
 
 TEST(Sdfs, NothingIsInsideOutOfBounds) {
-    for (const Case& c : cases()) {
+    for (const SdfCase& c : sdf_cases()) {
         SCOPED_TRACE(c.name);
         Rng rng(3);
         int inside = 0;
@@ -142,7 +142,7 @@ TEST(Sdfs, NothingIsInsideOutOfBounds) {
 // Sphere tracing meets what an independent march in tiny steps meets: no surface is jumped over, none is seen
 // that is not there.
 TEST(Sdfs, TracedRaysMeetWhatADenseMarchMeets) {
-    for (const Case& c : cases()) {
+    for (const SdfCase& c : sdf_cases()) {
         SCOPED_TRACE(c.name);
         Rng rng(4);
         double size = max_component(c.region.size());

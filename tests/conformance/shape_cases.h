@@ -12,7 +12,7 @@
 
 namespace alhazen::shape_cases {
 
-struct Case {
+struct ShapeCase {
     std::string name;
     std::string kind, example;
     Node node;
@@ -33,13 +33,13 @@ inline MeshData house() {
     return mesh;
 }
 
-struct Place {
+struct ShapePlace {
     std::string name;
     Matrix4 matrix;
     bool reverse = false;
 };
 
-inline std::vector<Place> places() {
+inline std::vector<ShapePlace> places() {
     Matrix4 turned = Matrix4::translate({3, -2, 5}) * Matrix4::rotate(50, {1, 2, -1});
     return {{"as it is", {}, false},
             {"turned", turned, true},
@@ -50,8 +50,8 @@ inline std::vector<Place> places() {
             {"huge", Matrix4::scale({1e6, 1e6, 1e6}) * turned, false}};
 }
 
-inline Case make_case(const Kind<Shape>& kind, const Example& example, const Place& place) {
-    Case c;
+inline ShapeCase make_case(const Kind<Shape>& kind, const Example& example, const ShapePlace& place) {
+    ShapeCase c;
     c.name = kind.name + " \"" + example.name + "\" " + place.name;
     c.kind = kind.name;
     c.example = example.name;
@@ -74,12 +74,12 @@ inline Case make_case(const Kind<Shape>& kind, const Example& example, const Pla
     return c;
 }
 
-inline const std::vector<Case>& all_cases() {
-    static const std::vector<Case> cases = [] {
-        std::vector<Case> list;
+inline const std::vector<ShapeCase>& all_cases() {
+    static const std::vector<ShapeCase> cases = [] {
+        std::vector<ShapeCase> list;
         for (const Kind<Shape>& kind : shape_kinds().all())
             for (const Example& example : kind.doc().examples)
-                for (const Place& place : places()) list.push_back(make_case(kind, example, place));
+                for (const ShapePlace& place : places()) list.push_back(make_case(kind, example, place));
         return list;
     }();
     return cases;

@@ -10,12 +10,14 @@
 #include "tests/conformance/shape_cases.h"
 #include "tests/support/area_density.h"
 #include "tests/support/chi_square.h"
+#include "tests/support/effort.h"
 
 namespace alhazen {
 namespace {
 
 using namespace shape_cases;
 using testing_support::chi_square_p_value;
+using testing_support::fewer_if_sanitized;
 using testing_support::sidak_level;
 
 // False alarms of each statistical test below, over all cases and fixed seeds together.
@@ -40,7 +42,7 @@ double distance_to_patch(const BilinearPatch& patch, Vec3d p, Vec3d n) {
 }
 
 // The gradient in the world of a function that has the gradient n in object space: by the inverse transpose.
-Vec3d world_gradient(const Case& c, Vec3d n) {
+Vec3d world_gradient(const ShapeCase& c, Vec3d n) {
     Vec3d g;
     const auto& inverse = c.world_from_object.inverse_matrix().m;
     for (int i = 0; i < 3; ++i) {
@@ -51,12 +53,12 @@ Vec3d world_gradient(const Case& c, Vec3d n) {
 }
 
 // Surfaces whose parameters are the coordinates across the axis that the normal is nearest to.
-bool is_projected(const Case& c) {
+bool is_projected(const ShapeCase& c) {
     return c.kind == "sdf" || c.kind == "sdfgrid";
 }
 
 // How far q, a point of object space next to the surface, is from it in the world.
-double distance_to_field(const Case& c, Vec3d q) {
+double distance_to_field(const ShapeCase& c, Vec3d q) {
     Dual f;
     if (const Parameter* field = c.node.find("field"))
         f = testing_support::example_sdfs()
@@ -68,7 +70,7 @@ double distance_to_field(const Case& c, Vec3d q) {
 }
 
 // The points of a strand's splines in the world, densely, by the recursions of de Casteljau and de Boor.
-std::vector<Vec3d> points_of_strand(const Case& c) {
+std::vector<Vec3d> points_of_strand(const ShapeCase& c) {
     auto text = [&](std::string_view name, const char* otherwise) {
         const Parameter* p = c.node.find(name);
         return p ? std::get<std::vector<std::string>>(p->values)[0] : std::string(otherwise);
@@ -96,7 +98,7 @@ std::vector<Vec3d> points_of_strand(const Case& c) {
     return points;
 }
 
-double distance_to_strand(const Case& c, Vec3d p) {
+double distance_to_strand(const ShapeCase& c, Vec3d p) {
     static std::map<std::string, std::vector<Vec3d>> known;
     auto [found, is_new] = known.try_emplace(c.name);
     if (is_new) found->second = points_of_strand(c);
@@ -106,7 +108,7 @@ double distance_to_strand(const Case& c, Vec3d p) {
 }
 
 // Of a file's triangles and then patches, or of a mesh of patches.
-double distance_to_face(const Case& c, const Hit& hit) {
+double distance_to_face(const ShapeCase& c, const Hit& hit) {
     MeshData mesh = shape_cases::house();
     if (const Parameter* given = c.node.find("P"))
         mesh.P = std::get<std::vector<Vec3>>(given->values), mesh.indices = {},
@@ -122,7 +124,7 @@ double distance_to_face(const Case& c, const Hit& hit) {
 }
 
 // How far p is from the true surface along its normal, in double precision, from the equations.
-double distance_to_surface(const Case& c, const Hit& hit) {
+double distance_to_surface(const ShapeCase& c, const Hit& hit) {
     Vec3d p(hit.p);
     if (const TriangleMesh* mesh = c.shape->triangles()) {
         auto [a, b, d] = mesh->vertices(hit.primitive);
@@ -145,7 +147,7 @@ TEST(Shapes, EachKindHasExamples) {
 }
 
 TEST(Shapes, HitsLieOnTheSurfaceAndWithinTheBounds) {
-    for (const Case& c : all_cases()) {
+    for (const ShapeCase& c : all_cases()) {
         SCOPED_TRACE(c.name);
         Rng rng(1);
         int hits = 0;
@@ -178,7 +180,7 @@ TEST(Shapes, HitsLieOnTheSurfaceAndWithinTheBounds) {
 }
 
 TEST(Shapes, PlainSurfacesAreTheSameButForParameters) {
-    for (const Case& c : all_cases()) {
+    for (const ShapeCase& c : all_cases()) {
         SCOPED_TRACE(c.name);
         Rng rng(17);
         for (int n = 0; n < 200; ++n) {
@@ -196,7 +198,7 @@ TEST(Shapes, PlainSurfacesAreTheSameButForParameters) {
 }
 
 TEST(Shapes, NothingIsHitBeforeTheStartOrBehindTheEnd) {
-    for (const Case& c : all_cases()) {
+    for (const ShapeCase& c : all_cases()) {
         SCOPED_TRACE(c.name);
         Rng rng(2);
         for (int i = 0; i < 300; ++i) {
@@ -215,7 +217,7 @@ TEST(Shapes, NothingIsHitBeforeTheStartOrBehindTheEnd) {
 }
 
 TEST(Shapes, SpawnedRaysDoNotMeetTheSurfaceTheyLeave) {
-    for (const Case& c : all_cases()) {
+    for (const ShapeCase& c : all_cases()) {
         if (c.kind == "curve") continue; // winds back to itself; see its own tests
         SCOPED_TRACE(c.name);
         Rng rng(3);
@@ -239,7 +241,7 @@ TEST(Shapes, SpawnedRaysDoNotMeetTheSurfaceTheyLeave) {
 
 TEST(Shapes, RaysThatAreNotRaysHitNothing) {
     const float bad[] = {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity};
-    for (const Case& c : all_cases()) {
+    for (const ShapeCase& c : all_cases()) {
         SCOPED_TRACE(c.name);
         for (std::uint32_t k = 0; k < c.shape->primitive_count(); ++k)
             for (float v : bad)
@@ -260,7 +262,7 @@ TEST(Shapes, RaysThatAreNotRaysHitNothing) {
 }
 
 // Between two hits the nearest axis changes.
-bool seam_between(const Case& c, const Hit& a, const Hit& b) {
+bool seam_between(const ShapeCase& c, const Hit& a, const Hit& b) {
     auto axis = [&](const Hit& hit) {
         Vec3d n(c.world_from_object.inverse_normal(hit.ng));
         return max_dimension(abs(n)) * 2 + (n[max_dimension(abs(n))] < 0);
@@ -270,7 +272,7 @@ bool seam_between(const Case& c, const Hit& a, const Hit& b) {
 }
 
 // From p a small step along dpdu and down onto the surface again must change u alone, by the step.
-void expect_derivatives(const Case& c, const Hit& hit) {
+void expect_derivatives(const ShapeCase& c, const Hit& hit) {
     float reach = 2e-3f * c.size();
     for (int which = 0; which < 2; ++which) {
         Vec3 tangent = which ? hit.dpdv : hit.dpdu;
@@ -290,7 +292,7 @@ void expect_derivatives(const Case& c, const Hit& hit) {
 }
 
 TEST(Shapes, TangentsAreTheDerivativesByTheParameters) {
-    for (const Case& c : all_cases()) {
+    for (const ShapeCase& c : all_cases()) {
         SCOPED_TRACE(c.name);
         Rng rng(4);
         for (int i = 0; i < 500; ++i)
@@ -314,9 +316,9 @@ TEST(Shapes, TangentsAreTheDerivativesByTheParameters) {
 // Cauchy and Crofton: a random line through a ball of radius R crosses a surface of area A A / (2 pi R^2)
 // times in the mean.
 TEST(Shapes, AreaIsWhatRandomLinesMeasure) {
-    constexpr int lines = 20000;
+    constexpr int lines = fewer_if_sanitized(20000);
     // 4.5 standard deviations over 133 cases: false alarm 1e-3 for normal errors.
-    for (const Case& c : all_cases()) {
+    for (const ShapeCase& c : all_cases()) {
         if (!c.shape->can_be_light()) continue;
         SCOPED_TRACE(c.name);
         Rng rng(5);
@@ -337,10 +339,10 @@ TEST(Shapes, AreaIsWhatRandomLinesMeasure) {
 // Where random lines cross a surface is uniform over its area: an independent source of points to compare
 // with.
 TEST(Shapes, SamplesAreUniformOverTheArea) {
-    constexpr int cells = 6;
+    constexpr int cells = 6, lines = fewer_if_sanitized(15000);
     const auto& cases = all_cases();
     double level = sidak_level(family_level, static_cast<int>(cases.size()));
-    for (const Case& c : cases) {
+    for (const ShapeCase& c : cases) {
         if (!c.shape->can_be_light()) continue;
         SCOPED_TRACE(c.name);
         Rng rng(6);
@@ -351,7 +353,7 @@ TEST(Shapes, SamplesAreUniformOverTheArea) {
         };
         std::map<int, std::array<double, 2>> counts;
         std::array<double, 2> total{};
-        for (int i = 0; i < 15000; ++i)
+        for (int i = 0; i < lines; ++i)
             for (const Hit& hit : all_hits(*c.shape, random_line(c.ball, rng))) {
                 ++counts[cell_of(hit.primitive, hit.uv)][0];
                 ++total[0];
@@ -359,7 +361,7 @@ TEST(Shapes, SamplesAreUniformOverTheArea) {
         std::vector<double> up_to;
         for (std::uint32_t i = 0; i < c.shape->primitive_count(); ++i)
             up_to.push_back((i ? up_to.back() : 0) + static_cast<double>(c.shape->area(i)));
-        for (int i = 0; i < 15000; ++i) {
+        for (int i = 0; i < lines; ++i) {
             double pick = static_cast<double>(rng.uniform()) * up_to.back();
             auto k = static_cast<std::uint32_t>(std::upper_bound(up_to.begin(), up_to.end(), pick) -
                                                 up_to.begin());
@@ -392,12 +394,13 @@ TEST(Shapes, SamplesAreUniformOverTheArea) {
 }
 
 TEST(Shapes, SampledPointsAreWhatARayTowardsThemHits) {
-    for (const Case& c : all_cases()) {
+    constexpr int points = fewer_if_sanitized(400);
+    for (const ShapeCase& c : all_cases()) {
         if (!c.shape->can_be_light()) continue;
         SCOPED_TRACE(c.name);
         Rng rng(7);
         int compared = 0;
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < points; ++i) {
             std::uint32_t k = rng.below(c.shape->primitive_count());
             float distance = i % 2 ? 1.5f : 20.0f;
             Vec3 from = c.ball.center + random_direction(rng) * (distance * c.size());
@@ -430,12 +433,12 @@ TEST(Shapes, SampledPointsAreWhatARayTowardsThemHits) {
                 ASSERT_NEAR(hit.uv.y, s->uv.y, 5e-3);
             }
         }
-        EXPECT_GT(compared, 200);
+        EXPECT_GT(compared, points / 2);
     }
 }
 
 // Next to the surface nearly all of the solid angle comes from very few samples.
-bool is_near(const Case& c, std::uint32_t primitive, Vec3 from) {
+bool is_near(const ShapeCase& c, std::uint32_t primitive, Vec3 from) {
     Rng rng(9);
     for (int i = 0; i < 300; ++i)
         if (length(c.shape->sample(primitive, {rng.uniform(), rng.uniform()}).p - from) < 0.15f * c.size())
@@ -447,8 +450,8 @@ bool is_near(const Case& c, std::uint32_t primitive, Vec3 from) {
 // around the shape measure the same by counting hits. Whole spheres sample what is seen from outside, other
 // shapes all of the surface, in front and behind.
 TEST(Shapes, SampledSolidAngleIsWhatUniformDirectionsMeasure) {
-    constexpr int samples = 6000;
-    for (const Case& c : all_cases()) {
+    constexpr int samples = fewer_if_sanitized(6000);
+    for (const ShapeCase& c : all_cases()) {
         if (!c.shape->can_be_light()) continue;
         SCOPED_TRACE(c.name);
         Rng rng(8);

@@ -5,17 +5,18 @@
 #include "sdf/mesh_distance.h"
 #include "shapes/triangle_mesh.h"
 #include "tests/conformance/shape_cases.h"
+#include "tests/support/effort.h"
 
 namespace alhazen {
 namespace {
 
 using namespace shape_cases;
 
-bool is_field(const Case& c) {
+bool is_field(const ShapeCase& c) {
     return c.kind == "sdf" || c.kind == "sdfgrid";
 }
 
-std::vector<Corners> triangles_of(const Case& c, double tolerance) {
+std::vector<Corners> triangles_of(const ShapeCase& c, double tolerance) {
     std::vector<Corners> triangles;
     const bool is_cut = c.shape->tessellate(tolerance, [&](const Corners& t) { triangles.push_back(t); });
     EXPECT_EQ(is_cut, c.kind != "curve") << c.name;
@@ -28,14 +29,14 @@ Vec3d area_of(const Corners& t) {
 }
 
 // Seen from outside by the parameterisation, whichever way the world's normals point.
-double side_of(const Case& c, Vec3 ng) {
+double side_of(const ShapeCase& c, Vec3 ng) {
     const bool mirrors = c.world_from_object.swaps_handedness();
     const bool is_equation = !c.shape->triangles() && c.kind != "bilinearmesh" && c.kind != "plymesh";
     return (is_equation && mirrors ? -1 : 1) * static_cast<double>(dot(ng, ng));
 }
 
 TEST(Tessellations, AreTheSurface) {
-    for (const Case& c : all_cases()) {
+    for (const ShapeCase& c : all_cases()) {
         SCOPED_TRACE(c.name);
         const double tolerance = static_cast<double>(c.size()) / 400;
         const std::vector<Corners> triangles = triangles_of(c, tolerance);
@@ -52,7 +53,7 @@ TEST(Tessellations, AreTheSurface) {
         const bool has_normals = c.node.find("N") || c.kind == "loopsubdiv";
         Rng rng(7);
         int turned = 0, count = 0;
-        for (int i = 0; i < 300; ++i) {
+        for (int i = 0; i < testing_support::fewer_if_sanitized(300); ++i) {
             const auto primitive =
                 static_cast<std::uint32_t>(rng.uniform() * static_cast<float>(c.shape->primitive_count()));
             const ShapeSample s = c.shape->sample(primitive, {rng.uniform(), rng.uniform()});
@@ -72,7 +73,7 @@ TEST(Tessellations, AreTheSurface) {
 
 // The finer, the nearer, by the square of the size of triangles.
 TEST(Tessellations, OfCurvedSurfacesAreAsFineAsTheyMustBe) {
-    for (const Case& c : all_cases()) {
+    for (const ShapeCase& c : all_cases()) {
         if (c.kind != "sphere" && c.kind != "bilinearmesh") continue;
         SCOPED_TRACE(c.name);
         const auto size = static_cast<double>(c.size());

@@ -10,9 +10,6 @@
 namespace alhazen::testing {
 namespace {
 
-constexpr int seeds = 16;
-constexpr double limit = 7;
-
 /// What a scene has, as a set of bits; a method may not see all of it.
 enum Sight { small_lights = 1, sky = 2 };
 
@@ -56,7 +53,7 @@ WorldBegin
                                    method.spp) +
                        world;
     std::vector<double> means;
-    for (int seed = 0; seed < seeds; ++seed) {
+    for (int seed = 0; seed < t_test_seeds; ++seed) {
         RenderSettings settings;
         settings.seed = static_cast<std::uint64_t>(seed);
         settings.color = mode;
@@ -80,7 +77,8 @@ void expect_agreement(const std::string& world, ColorMode mode, int sights) {
     for (std::size_t i = 1; i < methods().size(); ++i) {
         const Method& method = methods()[i];
         if (method.blind_to & sights) continue;
-        EXPECT_LT(std::abs(t_between(means_of(method, world, mode), reference, 1e-4)), limit) << method.name;
+        EXPECT_LT(std::abs(t_between(means_of(method, world, mode), reference, 1e-4)), t_test_limit)
+            << method.name;
     }
 }
 

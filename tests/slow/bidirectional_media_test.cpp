@@ -11,7 +11,6 @@
 namespace alhazen::testing {
 namespace {
 
-constexpr int seeds = 16;
 constexpr double limit = 5;
 
 struct Setting {
@@ -65,7 +64,7 @@ RenderSettings settings_of(const Setting& setting, int seed) {
 
 Features features_of(const std::string& integrator, int spp, const Setting& setting) {
     Features features;
-    for (int seed = 0; seed < seeds; ++seed)
+    for (int seed = 0; seed < t_test_seeds; ++seed)
         add_features(features,
                      render_text(scene_text(integrator, spp, setting), settings_of(setting, seed)).image);
     return features;
@@ -157,7 +156,7 @@ TEST(BidirectionalMedia, EachStrategyAloneFindsTheSame) {
     const std::string text =
         scene_text(R"("bdpt" "integer maxdepth" 3 "bool visualizestrategies" true)", 150, setting);
     std::map<std::string, Features> found;
-    for (int seed = 0; seed < seeds; ++seed) {
+    for (int seed = 0; seed < t_test_seeds; ++seed) {
         Messages messages;
         auto world = build_world(read_pbrt_string(text, ".", messages), settings_of(setting, seed), messages);
         EXPECT_TRUE(messages.warnings().empty());

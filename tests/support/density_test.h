@@ -11,6 +11,11 @@
 
 namespace alhazen::testing_support {
 
+/// Two random numbers.
+inline Vec2 random_pair(Rng& rng) {
+    return {rng.uniform(), rng.uniform()};
+}
+
 /// A test fails when its p-value is below this.
 inline const double p_threshold = sidak_level(1e-3, 10000);
 

@@ -19,6 +19,8 @@ namespace alhazen {
 inline constexpr ColorMode both_modes[] = {ColorMode::rgb, ColorMode::spectral};
 /// What lights are prepared for.
 inline const Bounds3 unit_scene{{-1, -1, -1}, {1, 1, 1}};
+inline const Bounds3 wide_scene{{-4, -4, -4}, {4, 4, 4}};
+inline const Wavelengths rgb_lanes = Wavelengths::rgb();
 
 inline Node make_node(std::string type, std::vector<Parameter> parameters) {
     Node node;

@@ -8,6 +8,9 @@
 
 namespace alhazen::testing {
 
+/// Lights that are the same from everywhere.
+inline const char* const white_sky = R"(LightSource "infinite" "rgb L" [ 1 1 1 ])";
+
 struct Rendered {
     Image image;
     RenderStats stats;

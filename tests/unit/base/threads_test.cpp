@@ -18,8 +18,8 @@ namespace {
 constexpr int many_threads = 4;
 
 TEST(Threads, ALoopTakesEveryIndexOnce) {
-    for (std::size_t count : {0, 1, 7, 1000})
-        for (std::size_t grain : {0, 1, 3, 5000}) {
+    for (const std::size_t count : std::vector<std::size_t>{0, 1, 7, 1000})
+        for (const std::size_t grain : std::vector<std::size_t>{0, 1, 3, 5000}) {
             std::vector<int> times(count);
             with_threads(many_threads,
                          [&] { parallel_for(count, grain, [&](std::size_t i) { ++times[i]; }); });

@@ -34,14 +34,14 @@ class MaterialTablesTest : public ::testing::Test {
     }
     ~MaterialTablesTest() override { std::filesystem::remove_all(folder); }
 
-    static Node node(const std::string& type, std::vector<Parameter> parameters, int line = 0) {
+    static Node node(const std::string& type, std::vector<Parameter> parameters, std::uint32_t line = 0) {
         Node node;
         node.type = type;
         for (Parameter& p : parameters) p.place.line = line;
         node.parameters = std::move(parameters);
         return node;
     }
-    static Node measured(const std::string& file, int line = 0) {
+    static Node measured(const std::string& file, std::uint32_t line = 0) {
         return node("measured", {make_string("filename", file)}, line);
     }
     static Node subsurface(float g, float eta) {
