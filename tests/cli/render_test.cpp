@@ -208,6 +208,7 @@ TEST_F(Render, ShowWithoutAScreenIsNoError) {
 TEST_F(Render, InterruptWritesTheImageSoFar) {
     // Enough samples that it cannot be done before the signal. A slow machine may still be loading when it
     // comes, and loading simply ends: then there is more patience.
+    // timeout sends the signal twice, to the program and to its group, which must count as one.
     for (int seconds : {2, 10, 50}) {
         Outcome o =
             shell(fmt::format("timeout --preserve-status -s INT {} {} render scene.pbrt --spp 4000000 "
