@@ -56,7 +56,7 @@ struct View {
     double flip = 0; ///< difference to the last view's image
 };
 
-bool is_of_meshes(const std::vector<ShapeNode>& shapes) {
+bool is_of_meshes(const std::deque<ShapeNode>& shapes) {
     return std::all_of(shapes.begin(), shapes.end(), [](const ShapeNode& s) {
         return s.node.type == "trianglemesh" || s.node.type == "plymesh";
     });

@@ -2,6 +2,7 @@
 /// in the source; no format's words, no renderer's objects.
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -72,7 +73,7 @@ struct InstanceNode {
 struct ObjectNode {
     std::string name;
     Place place;
-    std::vector<ShapeNode> shapes;
+    std::deque<ShapeNode> shapes; ///< not moved again when there are more: there may be millions
     std::vector<InstanceNode> instances;
 };
 

@@ -112,7 +112,12 @@ class SceneBuilder {
     // Takes the node's shapes that move out of it, into objects that are placed by their motion: those that
     // follow each other and move in the same way into one.
     void move_shapes(ObjectNode& node, std::vector<PlacedObject>& instances) {
-        std::vector<ShapeNode> still;
+        const auto moves = [](const ShapeNode& shape) { return shape.world_from_object.is_animated(); };
+        if (std::any_of(node.shapes.begin(), node.shapes.end(), moves)) take_moving(node, instances);
+        std::erase_if(instances, [](const PlacedObject& placed) { return placed.object->bounds().empty(); });
+    }
+    void take_moving(ObjectNode& node, std::vector<PlacedObject>& instances) {
+        std::deque<ShapeNode> still;
         std::vector<std::pair<Motion, ObjectNode>> moving;
         bool follows = false; // the shape before moves, too
         for (ShapeNode& shape : node.shapes) {
@@ -135,7 +140,6 @@ class SceneBuilder {
         }
         node.shapes = std::move(still);
         for (auto& [motion, inner] : moving) instances.push_back(moving_instance(motion, inner));
-        std::erase_if(instances, [](const PlacedObject& placed) { return placed.object->bounds().empty(); });
     }
 
     PlacedObject moving_instance(const Motion& motion, ObjectNode& inner) {

@@ -87,7 +87,10 @@ class PbrtBuilder {
     bool check_world(std::string_view directive, const Place& place);
     void set_one(Node& target, std::string_view family, std::string_view directive, Node node,
                  const Place& place);
-    void apply(const Matrix4& m, bool replace, std::string_view directive, const Place& place);
+    /// Puts m behind the transformation in force, or in its place. text: of the directive, for messages, as
+    /// a string or a function that makes one.
+    template <class Text>
+    void apply(const Matrix4& m, bool replace, const Text& text, const Place& place);
     void close_block(OpenBlock::Kind kind, std::string_view directive, const Place& place);
     void report_open_blocks();
     /// The parameters of Attribute directives that the node does not give itself.

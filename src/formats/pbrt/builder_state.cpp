@@ -24,17 +24,27 @@ Matrix4 from_columns(const std::array<double, 16>& m) {
 
 } // namespace
 
-void PbrtBuilder::apply(const Matrix4& m, bool replace, std::string_view directive, const Place& place) {
+template <class Text>
+void PbrtBuilder::apply(const Matrix4& m, bool replace, const Text& text, const Place& place) {
     GraphicsState& state = scope_.state;
     Motion moved = state.transform;
+    // Most things stand still: then one matrix is the other.
+    const bool is_still = state.active_transforms == GraphicsState::both_bits && !moved.is_animated();
     if (state.active_transforms & GraphicsState::start_bit) moved.start = replace ? m : moved.start * m;
-    if (state.active_transforms & GraphicsState::end_bit) moved.end = replace ? m : moved.end * m;
-    if (!moved.start.inverse() || !moved.end.inverse()) {
-        messages_.add_error(place,
-                            fmt::format("{} gives a transformation that cannot be inverted", directive));
+    if (is_still)
+        moved.end = moved.start;
+    else if (state.active_transforms & GraphicsState::end_bit)
+        moved.end = replace ? m : moved.end * m;
+    if (moved.start.inverse() && (is_still || moved.end.inverse())) {
+        state.transform = moved;
         return;
     }
-    state.transform = moved;
+    std::string directive;
+    if constexpr (std::is_invocable_v<Text>)
+        directive = text();
+    else
+        directive = text;
+    messages_.add_error(place, fmt::format("{} gives a transformation that cannot be inverted", directive));
 }
 
 void PbrtBuilder::identity(Place place) {
@@ -46,7 +56,8 @@ void PbrtBuilder::translate(Vec3d v, Place place) {
 }
 
 void PbrtBuilder::scale(Vec3d v, Place place) {
-    apply(Matrix4::scale(v), false, fmt::format("Scale {} {} {}", v.x, v.y, v.z), place);
+    apply(
+        Matrix4::scale(v), false, [&] { return fmt::format("Scale {} {} {}", v.x, v.y, v.z); }, place);
 }
 
 void PbrtBuilder::rotate(double degrees, Vec3d axis, Place place) {

@@ -38,24 +38,22 @@ struct Declaration {
     std::string text() const { return fmt::format("\"{} {}\"", type_word, printable(name)); }
 };
 
-std::vector<std::string> split_words(std::string_view text) {
-    std::vector<std::string> words;
-    std::size_t at = 0;
-    while ((at = text.find_first_not_of(" \t", at)) != std::string_view::npos) {
-        std::size_t stop = std::min(text.find_first_of(" \t", at), text.size());
-        words.emplace_back(text.substr(at, stop - at));
-        at = stop;
-    }
-    return words;
+/// Takes the first word off the text; "" when there is none.
+std::string_view take_word(std::string_view& text) {
+    const std::size_t first = std::min(text.find_first_not_of(" \t"), text.size());
+    const std::size_t last = std::min(text.find_first_of(" \t", first), text.size());
+    const std::string_view word = text.substr(first, last - first);
+    text.remove_prefix(last);
+    return word;
 }
 
-ValueType find_type(const std::string& word, const Place& place, Messages& messages) {
+ValueType find_type(std::string_view word, const Place& place, Messages& messages) {
     for (const TypeWord& known : type_words)
         if (known.word == word) return known.type;
     if (const OldName* old = find_old_name("parameter type", "", word)) {
         if (old->now.empty()) throw SyntaxError(place, describe_old_name(*old));
         messages.add_unsupported(place, describe_old_name(*old), remedy_for(*old));
-        return find_type(std::string(old->now), place, messages);
+        return find_type(old->now, place, messages);
     }
     std::vector<std::string> known;
     for (const TypeWord& w : type_words) known.emplace_back(w.word);
@@ -65,14 +63,15 @@ ValueType find_type(const std::string& word, const Place& place, Messages& messa
 
 Declaration read_declaration(PbrtTokenizer& tokens, Messages& messages) {
     PbrtToken token = tokens.next();
-    std::string text = tokens.string(token);
-    std::vector<std::string> words = split_words(text);
+    const std::string text = tokens.string(token);
+    std::string_view rest = text;
+    const std::string_view type_word = take_word(rest), name = take_word(rest);
     Place place = tokens.place(token);
-    if (words.size() != 2)
+    if (name.empty() || !take_word(rest).empty())
         throw SyntaxError(
             place, fmt::format("bad parameter declaration \"{}\"; expected \"type name\"", printable(text)));
-    ValueType type = find_type(words[0], place, messages);
-    return {words[0], words[1], type, place};
+    ValueType type = find_type(type_word, place, messages);
+    return {std::string(type_word), std::string(name), type, std::move(place)};
 }
 
 std::string_view wanted(ValueType type) {

@@ -91,7 +91,8 @@ std::array<double, n> PbrtParser::numbers(std::string_view directive) {
     std::array<double, n> values{};
     for (std::size_t i = 0; i < n; ++i) {
         PbrtToken token = tokens().next();
-        if (token.kind != Kind::word || DirectiveTable::find(token.text))
+        const bool may_be_directive = token.kind == Kind::word && token.text[0] >= 'A';
+        if (token.kind != Kind::word || (may_be_directive && DirectiveTable::find(token.text)))
             fail_at(token, fmt::format("{} needs {} numbers; found {} after {}", directive, n,
                                        describe_token(token), i));
         values[i] = tokens().number<double>(token);

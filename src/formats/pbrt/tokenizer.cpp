@@ -1,5 +1,6 @@
 #include "formats/pbrt/tokenizer.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -189,19 +190,28 @@ PbrtToken PbrtTokenizer::read_word(PbrtToken token) {
 
 template <class T>
 void PbrtTokenizer::read_numbers(std::vector<T>& out) {
+    // A few at a time: most lists are short, and then take the memory that they need at once.
+    std::array<T, 16> few;
+    std::size_t count = 0;
+    const auto hand_over = [&] {
+        out.insert(out.end(), few.begin(), few.begin() + static_cast<std::ptrdiff_t>(count));
+        count = 0;
+    };
     for (;;) {
         skip_blank();
-        if (at_ == end_ || !starts_number(*at_)) return;
+        if (at_ == end_ || !starts_number(*at_)) return hand_over();
         T value{};
         const char* stop = at_;
         NumberFault fault = parse_number(at_, end_, value, stop);
         if (fault != NumberFault::none) {
+            hand_over();
             Place where = place();
             PbrtToken word = read_token();
             throw_bad_number<T>(std::move(where), word.text, fault);
         }
         at_ = stop;
-        out.push_back(value);
+        few[count++] = value;
+        if (count == few.size()) hand_over();
     }
 }
 

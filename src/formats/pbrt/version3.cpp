@@ -1,6 +1,7 @@
 #include "formats/pbrt/version3.h"
 
 #include <array>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -75,8 +76,13 @@ constexpr std::array old_names{
 } // namespace
 
 const OldName* find_old_name(std::string_view family, std::string_view kind, std::string_view name) {
-    for (const OldName& old : old_names)
-        if (old.family == family && old.kind == kind && old.name == name) return &old;
+    static const auto by_name = [] {
+        std::unordered_multimap<std::string_view, const OldName*> map;
+        for (const OldName& old : old_names) map.emplace(old.name, &old);
+        return map;
+    }();
+    for (auto [at, end] = by_name.equal_range(name); at != end; ++at)
+        if (at->second->family == family && at->second->kind == kind) return at->second;
     return nullptr;
 }
 
