@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace alhazen {
@@ -77,6 +78,23 @@ TEST(PbrtTokenizer, ReadsNumbersExactly) {
     std::vector<float> expected{1, -2, 3, 0.5f, -0.5f, 5, 1000, 0.001f, 16777218.f, 0, 1e-42f, 3.4028235e38f};
     EXPECT_EQ(v, expected);
     EXPECT_EQ(t.next().text, "x");
+}
+
+TEST(PbrtTokenizer, ReadsListsOfAnyLength) {
+    for (int n : {0, 1, 15, 16, 17, 32, 33, 1000}) {
+        std::string text;
+        std::vector<int> expected{-1};
+        for (int i = 0; i < n; ++i) {
+            text += fmt::format("{} ", i);
+            expected.push_back(i);
+        }
+        text += "]";
+        PbrtTokenizer t = tokenizer(text);
+        std::vector<int> v{-1}; // what is there already stays
+        t.read_numbers(v);
+        EXPECT_EQ(v, expected);
+        EXPECT_EQ(t.next().text, "]");
+    }
 }
 
 TEST(PbrtTokenizer, ReadsNumbersAcrossLinesAndComments) {
