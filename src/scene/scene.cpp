@@ -75,7 +75,7 @@ SceneCounts Scene::counts() const {
         counts.accel_bytes += stats.bytes;
         counts.accel_nodes += stats.nodes;
         for (const PlacedShape& placed : object->shapes()) {
-            counts.shape_bytes += placed.shape->bytes();
+            counts.shape_bytes += sizeof placed + placed.shape->bytes();
             counts.primitives += placed.shape->primitive_count();
             if (placed.shape->triangles()) counts.triangles += placed.shape->primitive_count();
         }

@@ -26,7 +26,7 @@ struct BilinearMesh : Shape {
     NormalCone normals(std::uint32_t patch) const final;
     bool tessellate(double tolerance, const TriangleSink& out) const final;
     std::size_t bytes() const final {
-        return array_bytes(P) + array_bytes(N) + array_bytes(uv) + array_bytes(indices);
+        return sizeof *this + array_bytes(P) + array_bytes(N) + array_bytes(uv) + array_bytes(indices);
     }
 
   protected:

@@ -97,7 +97,7 @@ struct Curve final : Shape {
     bool can_be_light() const override { return false; }
     float area(std::uint32_t primitive) const override;
     ShapeSample sample(std::uint32_t, Vec2) const override { return {}; }
-    std::size_t bytes() const override { return segments_.capacity() * sizeof(CurveSegment); }
+    std::size_t bytes() const override { return sizeof *this + segments_.capacity() * sizeof(CurveSegment); }
 
   private:
     struct Part {

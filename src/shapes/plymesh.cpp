@@ -115,7 +115,7 @@ struct FileMesh final : Shape {
     bool tessellate(double tolerance, const TriangleSink& out) const override {
         return triangles_->tessellate(tolerance, out) && patches_->tessellate(tolerance, out);
     }
-    std::size_t bytes() const override { return triangles_->bytes() + patches_->bytes(); }
+    std::size_t bytes() const override { return sizeof *this + triangles_->bytes() + patches_->bytes(); }
 
   private:
     const Shape& part(std::uint32_t i) const {

@@ -128,6 +128,7 @@ struct QuadricShape : Shape {
     }
 
     float area(std::uint32_t /*primitive*/) const final { return static_cast<float>(world_area_); }
+    std::size_t bytes() const final { return sizeof(Q); }
 
     ShapeSample sample(std::uint32_t /*primitive*/, Vec2 u) const final {
         Vec3d p = self().point_at(Vec2d(u));

@@ -100,6 +100,7 @@ struct SdfShape final : Shape {
     }
 
     float area(std::uint32_t) const override { return points().area(); }
+    std::size_t bytes() const override { return sizeof *this; }
     ShapeSample sample(std::uint32_t, Vec2 u) const override {
         auto p = points().at(u);
         if (!p) return {};

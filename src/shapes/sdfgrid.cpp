@@ -120,7 +120,7 @@ struct SdfGrid final : Shape {
         return {Vec3(placement_.point(p)), point_error(p), placement_.normal(n),
                 project_uv(p, n, field_.bounds()).uv, 1 / points().area()};
     }
-    std::size_t bytes() const override { return field_.bytes(); }
+    std::size_t bytes() const override { return sizeof *this + field_.bytes(); }
 
   private:
     Vec3d normal_at(Vec3d p, Vec3d otherwise) const {

@@ -84,8 +84,8 @@ struct Shape {
     /// The ball that it is, if so: scenes test few of those together.
     virtual std::optional<Ball> ball() const { return std::nullopt; }
 
-    /// Memory of the shape's arrays.
-    virtual std::size_t bytes() const { return 0; }
+    /// Memory of the shape, its arrays included.
+    virtual std::size_t bytes() const = 0;
 
     /// Fraction of the surface that is there: 1 solid, 0 not there; between, by chance.
     FloatTexture alpha{1.0f};

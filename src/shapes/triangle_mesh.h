@@ -53,7 +53,8 @@ struct TriangleMesh : Shape {
     ShapeSample sample_at(std::uint32_t triangle, Vec2 weights, float pdf) const;
     const TriangleMesh* triangles() const final { return this; }
     std::size_t bytes() const final {
-        return array_bytes(P) + array_bytes(N) + array_bytes(S) + array_bytes(uv) + array_bytes(indices);
+        return sizeof *this + array_bytes(P) + array_bytes(N) + array_bytes(S) + array_bytes(uv) +
+               array_bytes(indices);
     }
 
   protected:

@@ -24,6 +24,7 @@ class TrianglePair final : public Shape {
     std::optional<ShapeSample> sample_from(std::uint32_t, Vec3 reference, Vec2 u) const override;
     float pdf_from(std::uint32_t, Vec3 reference, const Hit& hit, Vec3 wi) const override;
     NormalCone normals(std::uint32_t) const override { return mesh_.normals(first_); }
+    std::size_t bytes() const override { return sizeof *this; }
 
   private:
     const TriangleMesh& mesh_;

@@ -34,6 +34,7 @@ TEST_F(Commands, InfoTellsWhatIsThere) {
     auto json = nlohmann::json::parse(alhazen("info scene.pbrt --json").out);
     EXPECT_EQ(json["primitives"], 1);
     EXPECT_EQ(json["light_count"], 2);
+    EXPECT_GT(json["shape_bytes"], 100);
     EXPECT_NEAR(json["bounds"]["max"][0], 1, 1e-6);
     EXPECT_EQ(alhazen("info none.pbrt").exit_code, 2);
 }

@@ -23,6 +23,7 @@ struct TestShape : Shape {
     // The tests make their own hits.
     bool intersect(const Ray&, std::uint32_t, Intersection&) const override { return false; }
     Hit surface(const Ray&, std::uint32_t, const Intersection&) const override { return {}; }
+    std::size_t bytes() const override { return sizeof *this; }
 };
 
 struct TestTriangle final : TestShape {
