@@ -128,7 +128,7 @@ Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, bool is_sky, Lan
             // What the medium alone has decided needs no ray.
             if (weaken_by(*collisions, whole, weights)) co_return weights;
         }
-        const std::optional<Hit> hit = co_await path.closest(ray);
+        const std::optional<Hit> hit = co_await path.closest_before_light(ray);
         if (hit && !hit->material->choose(*hit)->is_interface()) {
             weights.block();
             co_return weights;

@@ -72,6 +72,11 @@ class PathContext {
         first_ray_ = false;
         return Closest{*this, ray, approximation};
     }
+    /// The same on the way to a light: what is met may be only a border of media.
+    auto closest_before_light(const Ray& ray) {
+        ++counts_.shadow;
+        return Closest{*this, ray, scene.approximation()};
+    }
     /// An awaitable that gives true when nothing blocks the ray before its tmax.
     auto visible(const Ray& ray) {
         ++counts_.shadow;

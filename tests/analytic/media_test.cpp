@@ -238,6 +238,15 @@ TEST(MediaAgreement, LightSamplingOrNot) {
             }
 }
 
+TEST(MediaAgreement, RaysTowardsLightsAreCountedAsSuch) {
+    const auto rays = [](const char* integrator) {
+        return render_text(through_the_box(integrator, 1, R"("string type" "homogeneous")", bright_sky))
+            .stats.rays;
+    };
+    EXPECT_GT(rays(volpath).shadow, 32u);
+    EXPECT_EQ(rays(R"(Integrator "simplevolpath")").shadow, 0u); // finds lights by chance
+}
+
 // A picture's dark part is left to the phase function, or it is not (MIS compensation). The same t-test.
 TEST(MediaAgreement, PicturesOfTheSkyDrawnWholeOrInPart) {
     Image image = Image::rgb_image(16, 8);
