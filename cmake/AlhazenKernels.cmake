@@ -10,10 +10,13 @@ foreach(set plain sse42 avx2 avx512)
     set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/accel/wide/kernel_${set}.cpp PROPERTIES
         SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "-fno-tree-vectorize;-fno-tree-slp-vectorize;${kernel_flags_${set}}")
 endforeach()
-# The rasteriser's, whose text leaves it to the compiler to put lanes into registers.
-set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/raster/kernel_plain.cpp PROPERTIES
-    SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "-Wno-psabi")
-foreach(set avx2 avx512)
-    set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/raster/kernel_${set}.cpp PROPERTIES
-        SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${kernel_flags_${set}}")
+# The rasteriser's, and those that follow bundles of rays, whose text leaves it to the compiler to put lanes into
+# registers.
+foreach(folder raster integrators/bundle)
+    set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/${folder}/kernel_plain.cpp PROPERTIES
+        SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "-Wno-psabi")
+    foreach(set avx2 avx512)
+        set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/${folder}/kernel_${set}.cpp PROPERTIES
+            SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "-Wno-psabi;${kernel_flags_${set}}")
+    endforeach()
 endforeach()

@@ -47,7 +47,7 @@ class PerspectiveCamera final : public FlatCamera {
         Vec2d s = screen(sample.film) * half_size_;
         Vec3d through(s.x, s.y, 1);
         float time = ray_time(sample.time);
-        if (lensradius == 0) return make_ray({0, 0, 0}, through, time);
+        if (lensradius == 0) return make_ray(through, time);
         Vec2d on_lens = lens(sample.lens);
         Vec3d from(on_lens.x, on_lens.y, 0);
         return make_ray(from, through * static_cast<double>(focaldistance) - from, time);

@@ -12,6 +12,7 @@ void check_shutter(Camera& camera, const Node& node, BuildContext& context) {
 bool FlatCamera::finish_flat(const Node& node, BuildContext& context) {
     check_shutter(*this, node, context);
     world_from_camera_ = context.world_from_node;
+    eye_ = Vec3(world_from_camera_.point(Vec3d()));
     const Vec2d size(context.film_resolution);
     resolution_ = size;
     const double aspect = frameaspectratio ? static_cast<double>(*frameaspectratio) : size.x / size.y;
@@ -39,8 +40,7 @@ bool FlatCamera::finish_flat(const Node& node, BuildContext& context) {
 }
 
 CameraRay FlatCamera::make_ray(Vec3d origin, Vec3d direction, float time) const {
-    Vec3d d = world_from_camera_.vector(direction);
-    return {{Vec3(world_from_camera_.point(origin)), Vec3(normalize(d)), infinity, time}, 1};
+    return make_ray_from(Vec3(world_from_camera_.point(origin)), direction, time);
 }
 
 std::optional<CameraConnection> FlatCamera::sample_towards(Vec3 p, Vec2 u, float /*time*/) const {

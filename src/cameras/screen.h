@@ -62,13 +62,19 @@ struct FlatCamera : Camera {
     Projection projection_of(double half_size, bool is_perspective) const;
     float ray_time(float u) const { return lerp(u, shutteropen, shutterclose); }
     CameraRay make_ray(Vec3d origin, Vec3d direction, float time) const;
+    /// From the camera's own origin.
+    CameraRay make_ray(Vec3d direction, float time) const { return make_ray_from(eye_, direction, time); }
 
     Transform world_from_camera_;
 
   private:
+    CameraRay make_ray_from(Vec3 origin, Vec3d direction, float time) const {
+        return {{origin, Vec3(normalize(world_from_camera_.vector(direction))), infinity, time}, 1};
+    }
     /// What Camera::ray_density() is for a vector of camera space, at a distance in the world.
     float density(Vec3d v, double distance) const;
 
+    Vec3 eye_;
     Vec2d corner_, step_, resolution_{1, 1};
     double plane_z_ = 0, plane_scale_ = 0;
 };

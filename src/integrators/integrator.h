@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "describe/kind.h"
+#include "integrators/bundle/bundles.h"
 #include "integrators/path_context.h"
 #include "integrators/picture.h"
 #include "integrators/task.h"
@@ -28,6 +29,9 @@ struct Integrator {
     virtual std::vector<std::string> splat_layers() const { return {}; }
     /// True where pixels are made of radiance() along camera rays, followed one by one through PathContext.
     virtual bool follows_camera_rays() const { return true; }
+    /// For scenes in which many camera rays are followed together sooner than one by one: who does it, for
+    /// rays of RGB, with the very bits of radiance(). The scene must outlive it. nullptr: nobody.
+    virtual std::unique_ptr<RayBundles> bundles(const Scene& /*scene*/) const { return nullptr; }
     /// For integrators that make pictures as a whole: the work on this one. nullptr: the picture is made of
     /// radiance().
     virtual std::unique_ptr<PictureWork> whole_picture(const PictureOrder& /*picture*/) const {

@@ -45,6 +45,9 @@ struct Whitted final : Integrator {
     }
 
     bool works_in_rgb() const override { return true; }
+    std::unique_ptr<RayBundles> bundles(const Scene& scene) const override {
+        return whitted_bundles(scene, {maxdepth, shadows, ambient.eval(Wavelengths::rgb())});
+    }
     bool centres_single_samples() const override { return true; }
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         return trace_ray(ray, maxdepth, path);

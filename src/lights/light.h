@@ -63,6 +63,13 @@ struct LightBounds {
     bool two_sided = false;
 };
 
+/// A light without size that shines alike in all directions.
+struct EvenPoint {
+    Vec3 p;
+    Spectrum intensity;
+    bool fades = true; ///< with the square of the distance
+};
+
 struct Light {
     static constexpr std::string_view family_name = "light";
     virtual ~Light() = default;
@@ -112,6 +119,8 @@ struct Light {
 
     /// nullopt for infinite lights.
     virtual std::optional<LightBounds> bounds() const { return std::nullopt; }
+    /// Of lights that are nothing else: sample() needs not be called for each point then.
+    virtual std::optional<EvenPoint> even_point(const Wavelengths& /*lambda*/) const { return std::nullopt; }
     /// Flux at the wavelengths, watts; infinite lights: through the scene's bounding disk (after prepare()).
     virtual Spectrum power(const Wavelengths& lambda) const = 0;
 };

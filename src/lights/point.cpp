@@ -48,6 +48,9 @@ struct PointLight final : PointLike {
     }
     LeavingPdf pdf_leaving(Vec3, Vec3) const override { return {1, sphere_pdf()}; }
     std::optional<LightBounds> bounds() const override { return point_bounds(); }
+    std::optional<EvenPoint> even_point(const Wavelengths& lambda) const override {
+        return EvenPoint{position(), intensity(lambda), falloff != Falloff::none};
+    }
 };
 
 } // namespace

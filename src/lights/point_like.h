@@ -65,6 +65,8 @@ struct PointLike : Light {
         s.p = p_;
         return s;
     }
+    Vec3 position() const { return p_; }
+    Spectrum intensity(const Wavelengths& lambda) const { return intensity_.eval(lambda); }
     /// For a light that shines everywhere.
     LightBounds point_bounds() const {
         LightBounds b;

@@ -54,6 +54,12 @@ struct WhittedTerms {
     float eta = 1;        ///< index inside over the index outside
 };
 
+/// The terms of Phong's formula.
+struct PhongTerms {
+    Spectrum diffuse, specular; ///< kd, ks
+    float shininess = 0;        ///< n
+};
+
 /// Two formulas for the highlights of textbook surfaces.
 enum class Highlight {
     phong, ///< (R.V)^n, R the mirrored direction of the light (Phong 1975)
@@ -89,6 +95,9 @@ struct Bsdf {
     /// eval().f is that times |cos(wi)| where both directions are on one side. Local light of many points is
     /// then summed without a call a point.
     virtual std::optional<Spectrum> matte() const { return std::nullopt; }
+    /// Of surfaces whose local() is Phong's formula, what stands in it: local light of many points is then
+    /// found together.
+    virtual std::optional<PhongTerms> phong() const { return std::nullopt; }
 
   protected:
     ~Bsdf() = default;

@@ -11,6 +11,7 @@
 #include "materials/fresnel.h"
 #include "materials/material.h"
 #include "materials/microfacet.h"
+#include "math/power.h"
 #include "math/warp.h"
 
 namespace alhazen {
@@ -27,7 +28,7 @@ struct PhongValues {
 
 // cos^n, 0 for angles beyond a right angle even where n is 0.
 float power_lobe(float cosine, float n) {
-    return cosine > 0 ? std::pow(cosine, n) : 0;
+    return cosine > 0 ? power(cosine, n) : 0;
 }
 
 class PhongBsdf final : public Bsdf {
@@ -88,6 +89,10 @@ class PhongBsdf final : public Bsdf {
 
     WhittedTerms whitted(Vec3) const override {
         return {values_.ambient, values_.reflectivity, values_.transparency, values_.eta};
+    }
+
+    std::optional<PhongTerms> phong() const override {
+        return PhongTerms{values_.diffuse, values_.specular, values_.shininess};
     }
 
     /// kd max(0, L.N) + ks max(0, R.V)^n, L = wi, V = wo, R = L mirrored about N; no highlight where L.N <=

@@ -12,12 +12,24 @@ constexpr int many_paths = 128;
 // Below this, one ray at a time was measured to be a tenth to a quarter faster (Whitted's spheres, the
 // Cornell box).
 constexpr std::size_t cached_bytes = std::size_t{256} << 10;
+// Samples whose rays are bundled: several bundles, and few enough to stay in the cache.
+constexpr std::size_t bundled = 64;
 
 } // namespace
 
 int default_paths_in_flight(const Scene& scene) {
     return scene.counts().accel_bytes < cached_bytes ? 1 : many_paths;
 }
+
+/// A sample of a pixel, and what is drawn for it before its first ray.
+struct Flight::Sample {
+    Vec2i pixel;
+    int number = 0; ///< among the pixel's
+    float filter_weight = 1;
+    Wavelengths lambda;
+    CameraSample at;
+    std::optional<CameraRay> ray;
+};
 
 /// A sample on its way, and the memory it lives in.
 struct Flight::Path {
@@ -28,11 +40,7 @@ struct Flight::Path {
     std::optional<PathContext> context;
     std::optional<Task<Spectrum>> task;
     std::uint64_t order = 0; ///< of the sample among the work's
-    Vec2i pixel;
-    int sample = 0;
-    float filter_weight = 1;
-    CameraSample camera_sample;
-    Spectrum camera_weight = 1;
+    Sample sample;
     VisibleSurface surface; ///< for films that want it
 };
 
@@ -63,6 +71,9 @@ Vec3 movement(const Camera& camera, CameraSample at, Vec2 step, const VisibleSur
 Flight::Flight(World& world, int paths, bool centred)
     : world_(world), centred_(centred), results_(ring_size),
       surfaces_(world.film->wants_surfaces() ? ring_size : 0) {
+    if (paths <= 0 && world.mode == ColorMode::rgb && surfaces_.empty())
+        bundles_ = world.integrator->bundles(*world.scene);
+    if (bundles_) return;
     if (paths <= 0) paths = default_paths_in_flight(*world.scene);
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(paths); ++i)
         paths_.push_back(std::make_unique<Path>(i));
@@ -73,9 +84,12 @@ Flight::~Flight() = default;
 void Flight::run(const Work& work) {
     work_ = work;
     next_ = added_ = 0;
+    next_pixel_ = work.pixels.lo;
+    next_sample_ = work.first_sample;
     count_ = static_cast<std::uint64_t>(work.pixels.width()) *
              static_cast<std::uint64_t>(work.pixels.height()) *
              static_cast<std::uint64_t>(work.end_sample - work.first_sample);
+    if (bundles_) return run_bundles();
     for (const auto& path : paths_)
         if (start_next(*path)) settle(*path);
     while (added_ < count_) {
@@ -87,47 +101,40 @@ void Flight::run(const Work& work) {
     }
 }
 
+void Flight::run_bundles() {
+    std::array<Sample, bundled> samples;
+    std::array<Ray, bundled> rays;
+    std::array<Spectrum, bundled> radiance;
+    while (next_ < count_) {
+        std::size_t taken = 0, sent = 0;
+        for (; taken < bundled && next_ < count_; ++taken) {
+            draw_next(samples[taken]);
+            if (samples[taken].ray) rays[sent++] = samples[taken].ray->ray;
+        }
+        bundles_->radiance({rays.data(), sent}, {radiance.data(), sent}, counts.rays);
+        sent = 0;
+        for (std::size_t i = 0; i < taken; ++i) {
+            const Sample& s = samples[i];
+            const Spectrum L = s.ray ? radiance[sent++] * s.ray->weight : 0;
+            add({s.pixel, s.number, L, s.lambda, s.filter_weight, true}, nullptr);
+        }
+    }
+}
+
 // Gives the path the next sample, which runs until its first ray; false when there is none to begin now.
 bool Flight::start_next(Path& path) {
     while (next_ < count_ && next_ - added_ < ring_size) {
-        place(path, next_++);
+        path.order = next_;
         path.arena.reset();
-        SampleStream stream(*world_.sampler, path.pixel, static_cast<std::uint32_t>(path.sample));
-        FilterSample filter;
-        const SceneOptionValues& options = world_.options;
-        if (!centred_ && !options.disablepixeljitter) filter = world_.filter->sample(stream.pixel2());
-        path.filter_weight = filter.weight;
-        Wavelengths lambda = Wavelengths::rgb();
-        if (world_.mode == ColorMode::spectral) {
-            const float u = stream.next1();
-            lambda = world_.film->sample_wavelengths(options.disablewavelengthjitter ? 0.5f : u);
-        }
-        CameraSample& at = path.camera_sample;
-        at = {};
-        at.film = {static_cast<float>(path.pixel.x) + 0.5f + filter.offset.x,
-                   static_cast<float>(path.pixel.y) + 0.5f + filter.offset.y};
-        if (world_.scene->moves() || world_.camera->moves())
-            at.time = stream.next1();
-        else
-            stream.skip(1);
-        if (world_.camera->has_lens())
-            at.lens = stream.next2();
-        else
-            stream.skip(2);
-        if (options.disablepixeljitter) {
-            at.lens = {0.5f, 0.5f};
-            at.time = 0.5f;
-        }
-        auto camera_ray = world_.camera->ray(at);
-        path.context.emplace(*world_.scene, stream, lambda, path.arena, counts.rays,
+        const SampleStream stream = draw_next(path.sample);
+        path.context.emplace(*world_.scene, stream, path.sample.lambda, path.arena, counts.rays,
                              paths_.size() > 1 ? &queue_ : nullptr, path.number);
         if (!surfaces_.empty()) {
             path.surface = {};
             path.context->surface = &path.surface;
         }
-        if (camera_ray) {
-            path.camera_weight = camera_ray->weight;
-            path.task.emplace(world_.integrator->radiance(camera_ray->ray, *path.context));
+        if (path.sample.ray) {
+            path.task.emplace(world_.integrator->radiance(path.sample.ray->ray, *path.context));
             return true;
         }
         finish(path, 0);
@@ -135,33 +142,66 @@ bool Flight::start_next(Path& path) {
     return false;
 }
 
-// Which sample of which pixel has this place in the work's order.
-void Flight::place(Path& path, std::uint64_t order) const {
-    const auto samples = static_cast<std::uint64_t>(work_.end_sample - work_.first_sample);
-    const auto width = static_cast<std::uint64_t>(work_.pixels.width());
-    const std::uint64_t pixel = order / samples;
-    path.order = order;
-    path.sample = work_.first_sample + static_cast<int>(order % samples);
-    path.pixel = {work_.pixels.lo.x + static_cast<int>(pixel % width),
-                  work_.pixels.lo.y + static_cast<int>(pixel / width)};
+// The next sample in the work's order, which must have one; what it may draw from then on comes back.
+SampleStream Flight::draw_next(Sample& sample) {
+    place_next(sample);
+    SampleStream stream(*world_.sampler, sample.pixel, static_cast<std::uint32_t>(sample.number));
+    FilterSample filter;
+    const SceneOptionValues& options = world_.options;
+    if (!centred_ && !options.disablepixeljitter) filter = world_.filter->sample(stream.pixel2());
+    sample.filter_weight = filter.weight;
+    sample.lambda = Wavelengths::rgb();
+    if (world_.mode == ColorMode::spectral) {
+        const float u = stream.next1();
+        sample.lambda = world_.film->sample_wavelengths(options.disablewavelengthjitter ? 0.5f : u);
+    }
+    CameraSample& at = sample.at;
+    at = {};
+    at.film = {static_cast<float>(sample.pixel.x) + 0.5f + filter.offset.x,
+               static_cast<float>(sample.pixel.y) + 0.5f + filter.offset.y};
+    if (world_.scene->moves() || world_.camera->moves())
+        at.time = stream.next1();
+    else
+        stream.skip(1);
+    if (world_.camera->has_lens())
+        at.lens = stream.next2();
+    else
+        stream.skip(2);
+    if (options.disablepixeljitter) {
+        at.lens = {0.5f, 0.5f};
+        at.time = 0.5f;
+    }
+    sample.ray = world_.camera->ray(at);
+    return stream;
+}
+
+void Flight::place_next(Sample& sample) {
+    ++next_;
+    sample.pixel = next_pixel_;
+    sample.number = next_sample_;
+    if (++next_sample_ < work_.end_sample) return;
+    next_sample_ = work_.first_sample;
+    if (++next_pixel_.x < work_.pixels.hi.x) return;
+    next_pixel_ = {work_.pixels.lo.x, next_pixel_.y + 1};
 }
 
 // A path that has ended hands its place on.
 void Flight::settle(Path& path) {
     while (path.task && path.task->done()) {
-        finish(path, path.task->result() * path.camera_weight);
+        finish(path, path.task->result() * path.sample.ray->weight);
         if (!start_next(path)) return;
     }
 }
 
 void Flight::finish(Path& path, Spectrum radiance) {
+    const Sample& sample = path.sample;
     Result& result = results_[path.order % ring_size];
-    result = {path.pixel, path.sample, radiance, path.context->lambda, path.filter_weight, true};
+    result = {sample.pixel, sample.number, radiance, path.context->lambda, sample.filter_weight, true};
     if (!surfaces_.empty()) {
         VisibleSurface& surface = surfaces_[path.order % ring_size] = path.surface;
         if (surface.is_there) {
-            surface.dpdx = movement(*world_.camera, path.camera_sample, {1, 0}, surface);
-            surface.dpdy = movement(*world_.camera, path.camera_sample, {0, 1}, surface);
+            surface.dpdx = movement(*world_.camera, sample.at, {1, 0}, surface);
+            surface.dpdy = movement(*world_.camera, sample.at, {0, 1}, surface);
         }
     }
     path.task.reset();
@@ -170,16 +210,16 @@ void Flight::finish(Path& path, Spectrum radiance) {
 
 void Flight::add_finished() {
     for (; added_ < next_ && results_[added_ % ring_size].is_done; ++added_) {
-        Result& r = results_[added_ % ring_size];
-        r.is_done = false;
-        if (r.radiance.is_finite()) {
-            if (const auto i = added_ % ring_size; i < surfaces_.size() && surfaces_[i].is_there)
-                world_.film->add_surface(r.pixel, surfaces_[i]);
-            world_.film->add(r.pixel, r.radiance, r.lambda, r.weight);
-            continue;
-        }
-        counts.add_bad(r.pixel, r.sample);
+        const std::size_t i = added_ % ring_size;
+        results_[i].is_done = false;
+        add(results_[i], i < surfaces_.size() && surfaces_[i].is_there ? &surfaces_[i] : nullptr);
     }
+}
+
+void Flight::add(const Result& result, const VisibleSurface* surface) {
+    if (!result.radiance.is_finite()) return counts.add_bad(result.pixel, result.sample);
+    if (surface) world_.film->add_surface(result.pixel, *surface);
+    world_.film->add(result.pixel, result.radiance, result.lambda, result.weight);
 }
 
 } // namespace alhazen

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "integrators/bundle/bundles.h"
 #include "integrators/path_context.h"
 #include "render/world.h"
 
@@ -22,8 +23,9 @@ class Flight {
         int first_sample = 0, end_sample = 0;
     };
 
-    /// paths: how many are followed at a time; 1: each ray is traced at once; 0: the default. centred: rays
-    /// go through the pixels' centres. The world must outlive the flight.
+    /// paths: how many are followed at a time; 1: each ray is traced at once; 0: the default, or bundles of
+    /// rays where the integrator has them for the scene. centred: rays go through the pixels' centres. The
+    /// world must outlive the flight.
     Flight(World& world, int paths, bool centred);
     ~Flight();
 
@@ -33,20 +35,27 @@ class Flight {
     PictureCounts counts; ///< so far
 
   private:
+    struct Sample;
     struct Path;
     struct Result;
 
-    void place(Path& path, std::uint64_t order) const;
+    SampleStream draw_next(Sample& sample);
+    void place_next(Sample& sample);
+    void run_bundles();
     bool start_next(Path& path);
     void settle(Path& path);
     void finish(Path& path, Spectrum radiance);
     void add_finished();
+    void add(const Result& result, const VisibleSurface* surface);
 
     World& world_;
     bool centred_;
     Work work_;
     std::uint64_t next_ = 0, count_ = 0; // of the work's samples: the first not begun, and how many there are
+    Vec2i next_pixel_;                   // whose the first not begun is
+    int next_sample_ = 0;                // and which of that pixel's
     std::uint64_t added_ = 0;            // to the film
+    std::unique_ptr<RayBundles> bundles_; // in place of paths, where rays are followed together
     RayQueue queue_;
     std::vector<std::unique_ptr<Path>> paths_;
     std::vector<Result> results_;          // a ring: samples end in another order than they begin

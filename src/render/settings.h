@@ -29,7 +29,8 @@ struct RenderSettings {
     std::optional<ColorMode> color; ///< default: spectral, but rgb for integrators that are defined in it
     int tile_size = 32;             ///< pixels; does not change the image
     /// Paths that a thread follows at a time, so that their rays are traced together; 1: each ray alone; 0:
-    /// many where the scene does not fit the processor's caches. Does not change the image.
+    /// many where the scene does not fit the processor's caches, or bundles of rays where the integrator has
+    /// them for the scene. Does not change the image.
     int paths_in_flight = 0;
     /// "integrator.maxdepth=3", "material.Floor.reflectance=.5 .4 .3"
     std::vector<std::string> overrides;

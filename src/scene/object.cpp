@@ -83,8 +83,8 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
     }
     for (std::uint32_t i = 0; i < instances_.size(); ++i) primitives_.push_back({instance_mark, i});
     is_apart_.assign(shapes_.size(), false);
-    // A structure that somebody chose gets everything.
-    if (accel.name() == AccelChoice{}.name()) set_balls_apart();
+    structure_is_chosen_ = accel.name() != AccelChoice{}.name();
+    if (!structure_is_chosen_) set_balls_apart();
     structure_ = make_structure(*this, accel);
     bounds_ = parallel_sum<Bounds3>(
         primitives_.size(), 16384, Bounds3{},
@@ -116,6 +116,7 @@ void Object::rebuild(const AccelChoice& accel) {
     is_apart_.assign(shapes_.size(), false);
     balls_ = {};
     only_balls_ = false;
+    structure_is_chosen_ = true;
     structure_ = make_structure(*this, accel);
 }
 

@@ -98,6 +98,8 @@ class Object final : public Primitives {
     const std::vector<PlacedShape>& shapes() const { return shapes_; }
     const std::vector<PlacedObject>& instances() const { return instances_; }
     const Structure& structure() const { return *structure_; }
+    /// Whether somebody chose the structure, which gets everything then.
+    bool structure_is_chosen() const { return structure_is_chosen_; }
     /// Builds another structure over the same things; for measurements. Nobody may be asking meanwhile.
     void rebuild(const AccelChoice& accel);
     std::size_t primitive_count() const { return primitives_.size(); }
@@ -154,6 +156,7 @@ class Object final : public Primitives {
     std::vector<bool> is_apart_; ///< one a shape: it is among the balls, not in the structure
     BallList balls_;
     bool only_balls_ = false; ///< the structure is empty
+    bool structure_is_chosen_ = false;
     std::unique_ptr<Structure> structure_;
     Bounds3 bounds_;
     std::size_t height_ = 1;

@@ -39,6 +39,7 @@ inline double intersect_ray_sphere(const BallRay& ray, Vec3d centre, double r) {
 struct Ball {
     Vec3d centre;
     double radius = 1;
+    bool is_turned = false; ///< its normals point inward
 
     double intersect(const BallRay& ray) const { return intersect_ray_sphere(ray, centre, radius); }
 };

@@ -57,6 +57,7 @@ class Placement {
     std::optional<double> uniform_scale() const { return uniform_scale_; }
     /// The normal that points outward by the parameterisation, turned to the side it shall have.
     Vec3 turned(Vec3 outward) const { return is_turned_ ? -outward : outward; }
+    bool is_turned() const { return is_turned_; }
 
     /// Boxes in the world, rounded outward: around a ball at the origin, around a disk across the z axis, and
     /// around a box.

@@ -112,9 +112,9 @@ struct Sphere final : QuadricShape<Sphere> {
             const BallRay exact(ray);
             v = exact.o - ball_->centre + exact.d * ball_->intersect(exact);
         }
-        // Onto the ball: 1 / sqrt(1 + e) is 1 - e / 2 for small e.
+        // Onto the ball: 1 / sqrt(1 + e) is 1 - e / 2, since the step has left e below 1e-8.
         const double e = dot(v, v) / r2 - 1;
-        return v * (std::abs(e) < 1e-8 ? 1 - e / 2 : 1 / std::sqrt(1 + e));
+        return v * (1 - e / 2);
     }
 
     // Squared distance of the reference from the centre over the radius squared, when the cone of directions
@@ -167,7 +167,7 @@ void Sphere::finish(const Node& node, BuildContext& context) {
     is_whole_ = z_min_ <= -r_ && z_max_ >= r_ && phimax >= 360;
     finish_placement(node, context);
     if (auto scale = placement.uniform_scale(); is_whole_ && scale)
-        ball_ = Ball{placement.point(Vec3d{}), r_ * *scale};
+        ball_ = Ball{placement.point(Vec3d{}), r_ * *scale, placement.is_turned()};
 }
 
 // From outside, directions uniform in the cone that the sphere fills (Shirley, Wang and Zimmerman 1996). In
