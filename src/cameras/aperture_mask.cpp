@@ -36,10 +36,10 @@ Vec2d on_circle(double radius, double angle) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-// A corner up, within a circle of 0.8 radii.
+// A corner down, within a circle of 0.8 radii.
 std::vector<Vec2d> pentagon() {
     std::vector<Vec2d> corners;
-    for (int i = 0; i < 5; ++i) corners.push_back(on_circle(0.8, std::numbers::pi * (0.5 + 0.4 * i)));
+    for (int i = 0; i < 5; ++i) corners.push_back(on_circle(0.8, std::numbers::pi * (1.5 + 0.4 * i)));
     return corners;
 }
 
@@ -58,7 +58,9 @@ std::optional<ApertureMask> ApertureMask::named(std::string_view name) {
     if (name == "gaussian")
         return ApertureMask(
             drawn([](Vec2d p) { return std::max(0.0, std::exp(-dot(p, p)) - std::exp(-1.0)); }));
-    if (name == "square") return ApertureMask(drawn([](Vec2d) { return 1; }));
+    if (name == "square")
+        return ApertureMask(
+            drawn([](Vec2d p) { return std::abs(p.x) < 0.5 && std::abs(p.y) < 0.5 ? 1 : 0; }));
     if (name == "pentagon")
         return ApertureMask(drawn([c = pentagon()](Vec2d p) { return is_inside(c, p) ? 1 : 0; }));
     if (name == "star") return ApertureMask(drawn([c = star()](Vec2d p) { return is_inside(c, p) ? 1 : 0; }));

@@ -127,6 +127,9 @@ struct FieldType<E> {
         std::string value;
         FieldType<std::string>::read(value, p, context);
         auto all = choices();
+        if constexpr (requires { EnumNames<E>::other_names; })
+            for (const auto& [other, name] : EnumNames<E>::other_names)
+                if (value == other) value = name;
         for (std::size_t i = 0; i < all.size(); ++i)
             if (all[i] == value) {
                 out = static_cast<E>(i);

@@ -13,12 +13,15 @@
 
 namespace alhazen {
 
+struct RgbColorSpace; // color/color_space.h
+
 /// One thing in a scene: its type ("diffuse"), its name if it has one, and its parameters.
 struct Node {
     std::string type;
     std::string name;
     std::vector<Parameter> parameters;
     Place place;
+    const RgbColorSpace* color_space = nullptr; ///< what is in effect where it stands; nullptr: sRGB
 
     const Parameter* find(std::string_view parameter) const;
     /// Where the parameter stands, or the node if it was not given: for messages.

@@ -59,11 +59,7 @@ void PictureFilm::finish(const Node& node, BuildContext& context) {
         context.messages.add_error(node.place_of("xresolution"), e.what());
         return;
     }
-    // A colour space in effect at the film marks all of its parameters; those added in code stay at the
-    // default.
-    for (const Parameter& p : node.parameters)
-        if (const RgbColorSpace* space = find_color_space(p.color_space); space && space != &srgb_space())
-            space_ = space;
+    if (node.color_space) space_ = node.color_space;
     const std::string name = sensor_names[static_cast<std::size_t>(sensor)];
     std::string error;
     auto found = Sensor::find({name, context.exposure_time, iso, whitebalance}, *space_, error);

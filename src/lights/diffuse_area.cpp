@@ -35,6 +35,7 @@ struct DiffuseAreaLight final : AreaLight {
     }
     void finish(const Node& node, BuildContext& context) {
         float s = scale;
+        take_default_color(node, "L", L);
         if (!filename.empty()) {
             if (node.find("L")) {
                 context.messages.add_error(

@@ -33,6 +33,7 @@ struct DistantLight final : Light {
                                        "needs a direction");
             return;
         }
+        take_default_color(node, "L", L);
         wi_ = normalize(context.world_from_node.vector(w->w));
         float s = scale * (is_given(illuminance) ? *illuminance : 1.0f);
         irradiance_ = calibrated(L.value, s, context.color_mode);

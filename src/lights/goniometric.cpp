@@ -37,7 +37,7 @@ struct GoniometricLight final : PointLike {
         }
         set_image(*image);
         world_from_light_ = context.world_from_node;
-        place(4 * pi * mean_, context);
+        place(4 * pi * mean_, node, context);
     }
 
     std::optional<LightSample> sample(const LightReceiver& at, Vec2,

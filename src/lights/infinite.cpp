@@ -58,6 +58,7 @@ struct InfiniteLight final : Light {
     void finish(const Node& node, BuildContext& context) {
         space_ = LightSpace(context.world_from_node);
         if (!check(node, context)) return;
+        take_default_color(node, "L", L);
         if (!filename.empty()) {
             load_image(node, context);
         } else if (!portal.empty()) {

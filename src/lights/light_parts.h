@@ -9,6 +9,7 @@
 #include "base/frame.h"
 #include "base/transform.h"
 #include "color/spectrum_value.h"
+#include "describe/scene_description.h"
 #include "describe/spectrum_parameter.h"
 #include "math/warp.h"
 
@@ -17,6 +18,12 @@ namespace alhazen {
 /// The default colour of lights.
 inline IlluminantSpectrum white_light() {
     return {SpectrumValue::illuminant_rgb(srgb_space(), Vec3(1)), "the colour space's illuminant"};
+}
+/// The same in the colour space that is in effect at the light, where the light's parameter of that name is
+/// not given.
+inline void take_default_color(const Node& light, std::string_view parameter, IlluminantSpectrum& color) {
+    if (light.color_space && !light.find(parameter))
+        color.value = SpectrumValue::illuminant_rgb(*light.color_space, Vec3(1));
 }
 
 /// The colour times scale in pbrt-v4's units: what a light emits in the given mode (see SpectrumValue's

@@ -32,7 +32,7 @@ struct PointLight final : PointLike {
         f.example("unfading", {make_rgb("I", .9f, .9f, .9f), make_point3("from", {5, 5, -10}),
                                make_string("falloff", "none")});
     }
-    void finish(const Node&, BuildContext& context) { place(4 * pi, context); }
+    void finish(const Node& node, BuildContext& context) { place(4 * pi, node, context); }
 
     std::optional<LightSample> sample(const LightReceiver& at, Vec2,
                                       const Wavelengths& lambda) const override {

@@ -32,7 +32,8 @@ struct PointLike : Light {
     }
     /// solid_angle: integral over all directions of what sample_point's factor is made of, without the
     /// distance; steradians.
-    void place(float solid_angle, const BuildContext& context) {
+    void place(float solid_angle, const Node& node, const BuildContext& context) {
+        take_default_color(node, "I", I);
         solid_angle_ = solid_angle;
         float s = scale;
         if (is_given(power_target)) s *= solid_angle > 0 ? *power_target / solid_angle : 0.0f;

@@ -48,7 +48,7 @@ struct SpotLight final : PointLike {
         cos_end_ = std::cos(radians(coneangle));
         cos_full_ = std::cos(radians(full));
         space_ = LightSpace(context.world_from_node);
-        place(solid_angle(), context);
+        place(solid_angle(), node, context);
     }
 
     std::optional<LightSample> sample(const LightReceiver& at, Vec2,

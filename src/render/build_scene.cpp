@@ -202,6 +202,12 @@ class SceneBuilder {
                 "area lights do not shine in objects that are instanced; this shape is dark");
             return;
         }
+        if (placed.material && placed.material->is_interface()) {
+            context_.messages.add_warning(
+                node.node.place,
+                "a border between media, with material \"interface\", cannot be an area light; it is dark");
+            return;
+        }
         if (!placed.shape->can_be_light()) {
             context_.messages.add_error(
                 node.node.place,

@@ -64,7 +64,7 @@ Target find_target(SceneDescription& scene, const std::string& path) {
 }
 
 std::string default_type(const std::string& family) {
-    if (family == "integrator") return "path";
+    if (family == "integrator") return "volpath";
     if (family == "film") return "rgb";
     if (family == "sampler") return "zsobol";
     if (family == "accelerator") return "bvh";

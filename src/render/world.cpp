@@ -233,9 +233,12 @@ void add_scene(World& world, SceneDescription& description, const CameraNode& ca
 
 } // namespace
 
+// As pbrt-v4's.
+constexpr const char* default_integrator = "volpath";
+
 std::unique_ptr<World> build_world(SceneDescription description, const RenderSettings& settings,
                                    Messages& messages, ShapeSources* sources) {
-    description.integrator = with_default(std::move(description.integrator), "path");
+    description.integrator = with_default(std::move(description.integrator), default_integrator);
     if (!settings.integrator.empty())
         description.integrator = replaced_kind(integrator_kinds(), std::move(description.integrator),
                                                settings.integrator, messages);
@@ -252,7 +255,7 @@ std::unique_ptr<World> build_world(SceneDescription description, const RenderSet
     static const GridReader grid_reader = &read_grid;
     context.grid_reader = &grid_reader;
 
-    world->integrator = integrator_kinds().make(description.integrator, context, "path");
+    world->integrator = integrator_kinds().make(description.integrator, context, default_integrator);
     choose_color_mode(*world, settings, messages);
     context.color_mode = world->mode;
 

@@ -10,6 +10,7 @@ namespace {
 
 struct InlinePatches final : BilinearMesh {
     std::vector<int> face_indices;
+    std::string emission_file;
 
     static void describe(Fields<InlinePatches>& f);
     void finish(const Node& node, BuildContext& context) {
@@ -33,6 +34,10 @@ void InlinePatches::describe(Fields<InlinePatches>& f) {
     f.field("uv", &InlinePatches::uv, "texture coordinates of each vertex")
         .otherwise("the unit square for each patch");
     f.field("faceIndices", &InlinePatches::face_indices, "number of the face each patch came from; not used");
+    f.field("emissionfilename", &InlinePatches::emission_file,
+            "picture by which pbrt-v4 draws points of a patch that glows; not used: they are drawn by the "
+            "picture of "
+            "the area light itself");
     describe_common(f);
     std::vector<Vec3> flat{{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}};
     std::vector<Vec3> twisted{{-1, -1, 0.5f}, {1, -1, -0.5f}, {-1, 1, -0.5f}, {1.5f, 1, 0.75f}};

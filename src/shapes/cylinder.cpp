@@ -24,9 +24,10 @@ struct Cylinder final : QuadricShape<Cylinder> {
                              make_float("phimax", 150)});
     }
     void finish(const Node& node, BuildContext& context) {
-        if (zmin >= zmax)
-            context.messages.add_error(node.place,
-                                       fmt::format("zmin is {}; it must be below zmax, {}", zmin, zmax));
+        if (zmin > zmax) std::swap(zmin, zmax);
+        if (zmin == zmax)
+            context.messages.add_error(
+                node.place, fmt::format("zmin and zmax are both {}; they must be two heights", zmin));
         r_ = static_cast<double>(radius);
         z_min_ = static_cast<double>(zmin);
         z_max_ = static_cast<double>(zmax);

@@ -156,11 +156,12 @@ void Sphere::finish(const Node& node, BuildContext& context) {
     r_ = static_cast<double>(radius);
     z_min_ = std::clamp(static_cast<double>(zmin.value_or(-radius)), -r_, r_);
     z_max_ = std::clamp(static_cast<double>(zmax.value_or(radius)), -r_, r_);
-    if (z_min_ >= z_max_)
+    if (z_min_ > z_max_) std::swap(z_min_, z_max_);
+    if (z_min_ == z_max_)
         context.messages.add_error(
             node.place,
-            fmt::format("zmin is {} and zmax {}, which leaves nothing of a sphere of radius {}; zmin "
-                        "must be below zmax, and both within the radius",
+            fmt::format("zmin is {} and zmax {}, which leaves nothing of a sphere of radius {}; they must "
+                        "be two heights, and one of them within the radius",
                         zmin.value_or(-radius), zmax.value_or(radius), radius));
     theta_min_ = std::acos(z_min_ / r_);
     theta_max_ = std::acos(z_max_ / r_);

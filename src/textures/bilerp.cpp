@@ -1,7 +1,7 @@
-/// Between four corners of the unit square of texture coordinates; beyond it, what its border has. (pbrt-v4
-/// goes on in straight lines there, to negative colours.)
+/// Between four corners of the unit square of texture coordinates; beyond it, straight on, as in pbrt-v4.
 #include "textures/mapping.h"
 #include "textures/texture_node.h"
+#include "textures/texture_set.h"
 
 namespace alhazen {
 
@@ -23,16 +23,26 @@ struct Bilerp final : TextureNodeOf<Family, Bilerp<Family>>, TextureMapping {
             f.example("four colours", {make_rgb("v00", 0.8f, 0.1f, 0.1f), make_rgb("v01", 0.1f, 0.8f, 0.1f),
                                        make_rgb("v10", 0.1f, 0.1f, 0.8f), make_rgb("v11", 0.8f, 0.8f, 0.1f)});
     }
-    void finish(const Node&, BuildContext& context) { place(context); }
+    void finish(const Node&, BuildContext& context) {
+        place(context);
+        if (context.texture_use && context.texture_use->role == SpectrumRole::albedo) most_ = 1;
+    }
 
     template <class... Lambda>
     TextureValue<Family> value(const TexturePoint& at, const Lambda&... lambda) const {
-        const Vec2 mapped = map(at), st{std::clamp(mapped.x, 0.0f, 1.0f), std::clamp(mapped.y, 0.0f, 1.0f)};
+        const Vec2 st = map(at);
         auto on_side = [&](const TextureInput<Family>& low, const TextureInput<Family>& high) {
             return low.eval(at, lambda...) * (1 - st.y) + high.eval(at, lambda...) * st.y;
         };
-        return on_side(v00, v01) * (1 - st.x) + on_side(v10, v11) * st.x;
+        const auto v = on_side(v00, v01) * (1 - st.x) + on_side(v10, v11) * st.x;
+        if constexpr (is_float_family<Family>)
+            return v;
+        else
+            return clamp(v, 0, most_);
     }
+
+  private:
+    float most_ = infinity; ///< that colours can be
 };
 
 } // namespace

@@ -23,14 +23,16 @@ bool is_in_dot(Vec2 st) {
 
 template <class Family>
 struct Dots final : TextureNodeOf<Family, Dots<Family>>, TextureMapping {
-    TextureInput<Family> inside{1}, outside{0};
+    TextureInput<Family> around{1}, spots{0};
 
     static void describe(Fields<Dots>& f) {
         f.about("Round spots of one texture on another: one at a random place in about half of the unit "
                 "squares of "
                 "texture coordinates.");
-        f.field("inside", &Dots::inside, "the spots");
-        f.field("outside", &Dots::outside, "what is around them");
+        f.field("inside", &Dots::around,
+                "what is around the spots (pbrt-v4 has the two names the wrong way round, and its scenes are "
+                "made to look right with it)");
+        f.field("outside", &Dots::spots, "the spots");
         describe_mapping(f);
         f.example("spots", {make_float("uscale", 8), make_float("vscale", 8)});
     }
@@ -38,7 +40,7 @@ struct Dots final : TextureNodeOf<Family, Dots<Family>>, TextureMapping {
 
     template <class... Lambda>
     TextureValue<Family> value(const TexturePoint& at, const Lambda&... lambda) const {
-        return is_in_dot(map(at)) ? inside.eval(at, lambda...) : outside.eval(at, lambda...);
+        return is_in_dot(map(at)) ? spots.eval(at, lambda...) : around.eval(at, lambda...);
     }
 };
 

@@ -16,6 +16,7 @@ struct EnumNames<WrapMode> {
 template <>
 struct EnumNames<TexelFilter> {
     static constexpr std::array names{"point", "bilinear", "trilinear", "ewa"};
+    static constexpr std::array other_names{std::pair{"EWA", "ewa"}};
 };
 
 namespace {

@@ -64,11 +64,10 @@ float sum_octaves(Vec3 p, float roughness, int octaves, float width, float mean,
         strength *= roughness;
     };
     for (int i = 0; i < whole; ++i, next()) sum += strength * shape(noise(p * frequency));
-    if (whole == octaves) return sum;
     const float part = std::clamp((seen - static_cast<float>(whole) - 0.3f) / 0.4f, 0.0f, 1.0f);
     sum += strength * std::lerp(mean, shape(noise(p * frequency)), part * part * (3 - 2 * part));
-    next();
-    for (int i = whole + 1; i < octaves && mean != 0; ++i, next()) sum += strength * mean;
+    // As pbrt-v4, which counts the octave that is seen in part among those that are not seen, too.
+    for (int i = whole; i < octaves && mean != 0; ++i, next()) sum += strength * mean;
     return sum;
 }
 

@@ -173,9 +173,15 @@ std::shared_ptr<const ColorTexels> TexelMaker::colors(const Image& image, WrapMo
 }
 
 std::shared_ptr<const FloatTexels> TexelMaker::numbers(const Image& image, WrapMode wrap) {
-    if (auto alpha = image.channel_index("A");
-        alpha && image.channels() > 1 && has_transparency(image, *alpha))
-        return keep<FloatTexels, NumberTexels>(one_channel(image, *alpha), wrap, fill_numbers);
+    if (auto alpha = image.channel_index("A"); alpha && image.has_rgb() && has_transparency(image, *alpha)) {
+        // As pbrt-v4, for which alpha is encoded like the colours beside it.
+        const bool is_encoded = image.info.bits == 8 || image.info.bits == 16;
+        const auto fill =
+            fill_each<float>([=, encoding = image.info.encoding](const Image& level, int x, int y) {
+                return is_encoded ? encoding.decode(level.at(x, y)) : level.at(x, y);
+            });
+        return keep<FloatTexels, NumberTexels>(one_channel(image, *alpha), wrap, fill);
+    }
     if (!image.has_rgb()) return keep<FloatTexels, NumberTexels>(one_channel(image, 0), wrap, fill_numbers);
     const auto mean = fill_each<float>([](const Image& level, int x, int y) {
         const Vec3 c = level.rgb(x, y);

@@ -10,7 +10,7 @@ namespace alhazen {
 namespace {
 
 bool has_both_signs(const std::string& kind) {
-    return kind == "fbm" || kind == "windy";
+    return kind == "fbm" || kind == "windy" || kind == "bilerp";
 }
 
 constexpr SpectrumRole roles[] = {SpectrumRole::albedo, SpectrumRole::unbounded, SpectrumRole::illuminant};

@@ -218,9 +218,11 @@ TEST(ApertureMask, ShapesLetThroughWhatARoundHoleDoes) {
         EXPECT_GT(farthest, mask->reach() - 0.03) << name;
     }
     EXPECT_FALSE(ApertureMask::named("circle"));
-    // A corner up; a point to the left.
-    EXPECT_GT(ApertureMask::named("pentagon")->at({0, 0.75}), 0);
-    EXPECT_EQ(ApertureMask::named("pentagon")->at({0, -0.75}), 0);
+    // A corner down; a point to the left; half as wide as the hole.
+    EXPECT_GT(ApertureMask::named("pentagon")->at({0, -0.75}), 0);
+    EXPECT_EQ(ApertureMask::named("pentagon")->at({0, 0.75}), 0);
+    EXPECT_GT(ApertureMask::named("square")->at({0.49, -0.49}), 0);
+    EXPECT_EQ(ApertureMask::named("square")->at({0.51, 0}), 0);
     EXPECT_GT(ApertureMask::named("star")->at({-0.9, 0}), 0);
     EXPECT_EQ(ApertureMask::named("star")->at({0.9, 0}), 0);
 }

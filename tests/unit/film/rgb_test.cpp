@@ -128,9 +128,13 @@ TEST(RgbFilm, SpectralSamplesGiveTheColour) {
 }
 
 TEST(RgbFilm, OutputInTheColourSpaceOfTheDirective) {
-    auto parameters = sized(1, 1);
-    for (Parameter& p : parameters) p.color_space = "rec2020";
-    auto film = make_film(parameters);
+    Messages messages;
+    BuildContext context{messages};
+    Node node;
+    node.type = "rgb";
+    node.parameters = sized(1, 1);
+    node.color_space = find_color_space("rec2020");
+    auto film = film_kinds().make(node, context, "");
     film->start(ColorMode::rgb);
     film->add({0, 0}, Spectrum(1, 0, 0, 0.33f), Wavelengths::rgb(), 1);
     Image image = film->image();

@@ -129,11 +129,20 @@ TEST(Quadrics, EllipsoidsHaveTheirTrueArea) {
     EXPECT_NEAR(shape->area(0), expected, 1e-4 * expected);
 }
 
+TEST(Quadrics, TakeTheirEndsInAnyOrder) {
+    for (const char* type : {"sphere", "cylinder"}) {
+        auto ordered = make(type, {make_float("zmin", -0.5f), make_float("zmax", 0.25f)});
+        auto exchanged = make(type, {make_float("zmin", 0.25f), make_float("zmax", -0.5f)});
+        EXPECT_EQ(exchanged->area(0), ordered->area(0));
+        EXPECT_EQ(exchanged->bounds(0).lo, ordered->bounds(0).lo);
+    }
+}
+
 TEST(Quadrics, SayWhatIsWrong) {
     EXPECT_THAT(errors_of("sphere", {make_float("radius", 0)}), HasSubstr("\"radius\" is 0; it must be"));
     EXPECT_THAT(errors_of("sphere", {make_float("radius", -1)}), HasSubstr("\"radius\" is -1"));
-    EXPECT_THAT(errors_of("sphere", {make_float("zmin", 0.5f), make_float("zmax", -0.5f)}),
-                HasSubstr("zmin must be below zmax"));
+    EXPECT_THAT(errors_of("sphere", {make_float("zmin", 0.5f), make_float("zmax", 0.5f)}),
+                HasSubstr("they must be two heights"));
     EXPECT_THAT(errors_of("sphere", {make_float("zmin", 2)}),
                 HasSubstr("leaves nothing of a sphere of radius 1"));
     EXPECT_THAT(errors_of("sphere", {make_float("phimax", 0)}), HasSubstr("phimax"));
@@ -143,7 +152,7 @@ TEST(Quadrics, SayWhatIsWrong) {
                 HasSubstr("innerradius is 1; it must be less than radius, 1"));
     EXPECT_THAT(errors_of("disk", {make_float("innerradius", -1)}), HasSubstr("innerradius"));
     EXPECT_THAT(errors_of("cylinder", {make_float("zmin", 1)}),
-                HasSubstr("zmin is 1; it must be below zmax, 1"));
+                HasSubstr("zmin and zmax are both 1; they must be two heights"));
     EXPECT_THAT(errors_of("shpere", {}), HasSubstr("did you mean \"sphere\""));
 }
 

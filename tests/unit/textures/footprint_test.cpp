@@ -201,12 +201,15 @@ TEST(Noise, OctavesTooFineForThePixelAreTheirMean) {
         const Vec3 p{100 * rng.uniform(), 100 * rng.uniform(), 100 * rng.uniform()};
         EXPECT_EQ(fractal_noise(p, 0.5f, 8, 2), 0);
         EXPECT_EQ(fractal_noise(p, 0.5f, 8, 1e-6f), fractal_noise(p, 0.5f, 8));
+        // The first octave's mean, once too often.
+        EXPECT_FLOAT_EQ(turbulence(p, 0.5f, 8, 2), 0.2f + 0.2f * (2 - 0x1p-7f));
         fine += static_cast<double>(turbulence(p, 0.5f, 8)) / n;
-        half += static_cast<double>(turbulence(p, 0.5f, 8, 0.1f)) / n;
+        // Nine octaves are seen of twelve, and the tenth's mean counts twice.
+        half += static_cast<double>(turbulence(p, 0.5f, 12, 0x1p-10f)) / n;
         wide += static_cast<double>(turbulence(p, 0.5f, 8, 10)) / n;
     }
-    EXPECT_NEAR(half / fine, 1, 0.1);
-    EXPECT_NEAR(wide / fine, 1, 0.2);
+    EXPECT_NEAR(half / fine, 1, 0.01);
+    EXPECT_NEAR((wide - 0.2) / fine, 1, 0.2);
 }
 
 } // namespace

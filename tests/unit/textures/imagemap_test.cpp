@@ -134,6 +134,25 @@ TEST_F(TextureTest, FloatsTakeAlphaWhereThereIsAny) {
     EXPECT_NEAR(node("glassy.exr"), 0.25f, 1e-6f);
 }
 
+// As pbrt-v4: encoded like colours in files of integers; beside grey it is not looked at.
+TEST_F(TextureTest, AlphaOfIntegerFiles) {
+    Image image(1, 1, {"R", "G", "B", "A"});
+    image.at(0, 0, 3) = 128.0f / 255;
+    save("half.png", image);
+    Image grey(1, 1, {"Y", "A"});
+    grey.at(0, 0, 0) = 1;
+    grey.at(0, 0, 1) = 128.0f / 255;
+    save("grey.png", grey);
+    auto value = [&](const char* file, const char* encoding) {
+        textures = {};
+        return number("imagemap", {make_string("filename", file), make_string("encoding", encoding)},
+                      at_uv(0.5f, 0.5f));
+    };
+    EXPECT_NEAR(value("half.png", "auto"), 0.2158605f, 1e-5f);
+    EXPECT_NEAR(value("half.png", "linear"), 128.0f / 255, 1e-5f);
+    EXPECT_NEAR(value("grey.png", "auto"), 1, 1e-5f);
+}
+
 TEST_F(TextureTest, OneFileIsReadOnce) {
     save("four.exr", four_colors());
     ImageCache cache;
