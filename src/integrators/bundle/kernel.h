@@ -16,6 +16,8 @@ constexpr std::uint32_t bundle_colors = 4;
 /// A ball, and its surface by Phong and Whitted.
 struct BundleBall {
     double x, y, z, radius, radius_squared;
+    float near_x, near_y, near_z; ///< the centre, rounded
+    float size;              ///< not below the radius and the greatest coordinates' part in rounding errors
     std::uint32_t primitive; ///< its number: of balls at the same distance the lowest is seen
     float side;              ///< 1, or -1 where its normal points inward
     float mirror, refract, eta, shininess;

@@ -46,6 +46,12 @@ std::optional<BundleBall> find_ball(const Object& object, std::uint32_t shape, S
     made.z = ball->centre.z;
     made.radius = ball->radius;
     made.radius_squared = ball->radius * ball->radius;
+    const Vec3 centre(ball->centre);
+    made.near_x = centre.x;
+    made.near_y = centre.y;
+    made.near_z = centre.z;
+    made.size = static_cast<float>(ball->radius) * (1 + 0x1p-20f) +
+                0x1p-20f * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
     made.primitive = primitive;
     made.side = ball->is_turned ? -1.0f : 1.0f;
     // Phong's are grey.
