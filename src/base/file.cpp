@@ -93,8 +93,12 @@ std::filesystem::path real_path(const std::filesystem::path& path) {
     return error ? path : real;
 }
 
-void write_atomically(const std::filesystem::path& target,
+void write_atomically(const std::filesystem::path& named,
                       const std::function<void(const std::filesystem::path&)>& write) {
+    // A link goes on leading to what is written.
+    std::error_code no_link;
+    const std::filesystem::path target =
+        std::filesystem::is_symlink(named, no_link) ? std::filesystem::weakly_canonical(named) : named;
     // Same folder, same suffix (libraries choose the format by it), a name no other process takes.
     std::filesystem::path temporary = target;
     temporary.replace_filename(
@@ -114,7 +118,9 @@ void write_file(const std::filesystem::path& target, std::string_view bytes) {
         std::ofstream out(temporary, std::ios::binary);
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         out.close();
-        if (!out) throw std::runtime_error(fmt::format("cannot write {}", target.string()));
+        if (!out)
+            throw std::runtime_error(
+                fmt::format("cannot write {}: {}", target.string(), std::strerror(errno)));
     });
 }
 

@@ -22,7 +22,7 @@ std::filesystem::path real_path(const std::filesystem::path& path);
 /// Calls write with a temporary path beside the target, then renames it over the target: readers see the old
 /// file or the whole new one. The temporary is removed when write throws. Throws std::runtime_error when the
 /// folder cannot be written.
-void write_atomically(const std::filesystem::path& target,
+void write_atomically(const std::filesystem::path& named,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 

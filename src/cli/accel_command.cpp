@@ -108,8 +108,7 @@ void print_walks(const LabReport& report) {
 
 int run_accel(AccelOptions& options) {
     std::vector<AccelChoice> choices = choices_of(options);
-    for (const std::string& file : {options.json_file, options.html_file})
-        if (!file.empty()) check_output_folder(file);
+    check_outputs(options.scene, {options.json_file, options.html_file});
     if (!options.html_file.empty()) options.lab.heat_map_pixels = heat_map_pixels;
     Messages messages;
     messages.lenient = options.lenient;

@@ -18,6 +18,7 @@
 #include "image/caption.h"
 #include "image/codec.h"
 #include "image/metrics.h"
+#include "lab/json_text.h"
 #include "render/renderer.h"
 
 namespace alhazen {
@@ -65,10 +66,12 @@ bool is_of_meshes(const std::deque<ShapeNode>& shapes) {
 // What is compared when nobody says what: local light by rasterisation, Whitted's mirrors and glass, all
 // light, and where every surface is a mesh all light through one distance field.
 std::vector<std::string> usual_ways(const std::string& scene) {
-    std::vector<std::string> ways{"raster", "whitted"};
     Messages messages;
     messages.lenient = true;
     const SceneDescription description = read_scene(scene, messages);
+    std::vector<std::string> ways;
+    // Other films want more than these give.
+    if (description.film.type.empty() || description.film.type == "rgb") ways = {"raster", "whitted"};
     bool has_field = is_of_meshes(description.world.shapes) && !description.world.shapes.empty();
     for (const ObjectNode& object : description.objects) has_field = has_field && is_of_meshes(object.shapes);
     if (has_field) ways.emplace_back("path:sdf");
@@ -116,7 +119,7 @@ std::string json_of(const std::string& scene, const std::vector<View>& views) {
                         {"render_seconds", v.render_seconds},
                         {"flip", v.flip},
                         {"flip_to", views.back().name}});
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 // Renders all; a warning that several give is printed once.
@@ -136,6 +139,7 @@ std::vector<View> see_all(const CompareOptions& options, const std::vector<Way>&
 
 int run_compare(const CompareOptions& options) {
     check_picture_output(options.output);
+    check_outputs(options.scene, {options.output, options.json_file});
     if (!options.scene_options.settings.integrator.empty())
         throw std::runtime_error("--integrator names one; compare takes several: --integrators raster,path");
     std::vector<Way> ways;

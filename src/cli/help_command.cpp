@@ -41,6 +41,8 @@ int run_help(const HelpOptions& options) {
         return exit_ok;
     }
     if (options.family == "spectrum") {
+        if (!options.kind.empty())
+            throw std::runtime_error("spectra have names only; alhazen help spectrum lists them all");
         fmt::print("{}", spectra_text(std::min(terminal_columns(), 100)));
         return exit_ok;
     }
@@ -67,6 +69,10 @@ int run_help(const HelpOptions& options) {
         throw std::runtime_error(fmt::format("unknown {} \"{}\"{}", options.family, options.kind,
                                              did_you_mean(options.kind, kinds)));
     }
+    for (std::string_view command : {"render", "info", "convert", "diff", "accel", "compare", "sdf"})
+        if (options.family == command)
+            throw std::runtime_error(
+                fmt::format("\"{0}\" is a command; alhazen {0} --help explains it", command));
     throw std::runtime_error(
         fmt::format("unknown type \"{}\"{}", options.family, did_you_mean(options.family, names)));
 }

@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "formats/format.h"
+#include "lab/json_text.h"
 #include "render/world.h"
 
 namespace alhazen {
@@ -158,7 +159,7 @@ int run_info(const InfoOptions& options) {
     });
     for (const Message& m : messages.warnings()) fmt::print(stderr, "{}\n", m.full_text());
     if (options.json)
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}", json_text(json));
     else
         print_text(json);
     return exit_ok;

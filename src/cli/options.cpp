@@ -79,6 +79,16 @@ void read_texture_memory(const std::string& text, RenderSettings& settings) {
     settings.texture_memory = count << shift;
 }
 
+void read_seed(const std::string& text, RenderSettings& settings) {
+    std::uint64_t seed = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, seed);
+    if (error != std::errc{} || rest != end)
+        throw CLI::ValidationError(
+            "--seed", fmt::format("\"{}\" is not a whole number from 0 to 18446744073709551615", text));
+    settings.seed = seed;
+}
+
 } // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
@@ -96,8 +106,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--integrator", s.integrator, "use this integrator (alhazen help integrator)")
         ->type_name("NAME");
     command.add_option("--camera", s.camera, "use the camera of this name")->type_name("NAME");
-    command.add_option("--seed", s.seed, "seed of the random numbers")
-        ->check(CLI::NonNegativeNumber)
+    command
+        .add_option_function<std::string>(
+            "--seed", [&s](const std::string& text) { read_seed(text, s); }, "seed of the random numbers")
         ->type_name("N");
     command
         .add_option_function<std::string>(

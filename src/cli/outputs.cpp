@@ -1,6 +1,7 @@
 #include "cli/outputs.h"
 
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 
 #include <unistd.h>
@@ -11,8 +12,31 @@
 
 namespace alhazen {
 
+void check_outputs(const std::string& input, const std::vector<std::string>& files) {
+    std::map<std::filesystem::path, std::string> taken;
+    std::error_code unknown;
+    auto place_of = [&](const std::string& file) {
+        auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), unknown);
+        return place.empty() ? std::filesystem::path(file) : place;
+    };
+    const std::filesystem::path read_from = place_of(input);
+    for (const std::string& file : files) {
+        if (file.empty()) continue;
+        check_output_folder(file);
+        const auto place = place_of(file);
+        if (place == read_from)
+            throw std::runtime_error(
+                fmt::format("cannot write \"{}\": it is what is read; give another name", file));
+        if (!taken.emplace(place, file).second)
+            throw std::runtime_error(
+                fmt::format("cannot write \"{}\" twice; give each output a name of its own", file));
+    }
+}
+
 void check_output_folder(const std::string& file) {
     std::filesystem::path path(file);
+    if (std::filesystem::is_directory(path))
+        throw std::runtime_error(fmt::format("cannot write \"{}\": it is a folder", file));
     std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     if (!std::filesystem::is_directory(folder))
         throw std::runtime_error(

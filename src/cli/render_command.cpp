@@ -18,6 +18,7 @@
 #include "cli/show.h"
 #include "formats/format.h"
 #include "image/codec.h"
+#include "lab/json_text.h"
 #include "render/renderer.h"
 
 namespace alhazen {
@@ -37,10 +38,21 @@ struct Timing {
     double load = 0, build = 0;
 };
 
-// "teapot" of "scenes/teapot.pbrt.gz".
+// "teapot.v2" of "scenes/teapot.v2.pbrt.gz".
 std::string scene_stem(const std::string& scene) {
-    std::string name = std::filesystem::path(scene).filename().string();
-    return name.substr(0, name.find('.', 1));
+    std::filesystem::path name = std::filesystem::path(scene).filename();
+    if (name.extension() == ".gz") name = name.stem();
+    return name.stem().string();
+}
+
+// As one word of a shell's command line.
+std::string quoted_for_shell(std::string_view text) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string_view::npos) return std::string(text);
+    std::string quoted = "'";
+    for (char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
 }
 
 std::int64_t peak_memory_bytes() {
@@ -133,17 +145,38 @@ void write_stats(const RenderOptions& options, const World& world, const RenderS
     }
     json["warnings"] = nlohmann::json::array();
     for (const Message& m : messages.warnings()) json["warnings"].push_back(m.full_text());
-    write_file(options.stats_file, json.dump(2) + "\n");
+    write_file(options.stats_file, json_text(json));
 }
 
-void report_bad_samples(const RenderOptions& options, const RenderStats& stats) {
+// The command line's options that decide what a sample is, to see one again.
+std::string repeated_options(const RenderSettings& s, int samples) {
+    std::string text = fmt::format(" --spp {}", samples);
+    auto add = [&](std::string_view option, std::string_view value) {
+        text += fmt::format(" {} {}", option, quoted_for_shell(value));
+    };
+    if (!s.integrator.empty()) add("--integrator", s.integrator);
+    if (!s.camera.empty()) add("--camera", s.camera);
+    if (s.size) add("--size", fmt::format("{}x{}", s.size->x, s.size->y));
+    if (s.seed) add("--seed", std::to_string(*s.seed));
+    if (s.color) add("--color", *s.color == ColorMode::rgb ? "rgb" : "spectral");
+    for (const std::string& setting : s.overrides) add("--set", setting);
+    return text;
+}
+
+void report_bad_samples(const RenderOptions& options, const World& world, const RenderStats& stats) {
     if (stats.bad_samples == 0) return;
     fmt::print(stderr, "alhazen: warning: {} samples were not finite numbers and were left out; the first:\n",
                stats.bad_samples);
-    for (const BadSample& bad : stats.first_bad_samples)
-        fmt::print(stderr, "    pixel {},{} sample {}: alhazen render {} --crop {},{},{},{} --spp {}\n",
-                   bad.pixel.x, bad.pixel.y, bad.sample, options.scene, bad.pixel.x, bad.pixel.y,
-                   bad.pixel.x + 1, bad.pixel.y + 1, stats.samples);
+    for (const BadSample& bad : stats.first_bad_samples) {
+        // What lands on other pixels is seen in the whole picture only.
+        const std::string crop = world.integrator->makes_splats()
+                                     ? ""
+                                     : fmt::format(" --crop {},{},{},{}", bad.pixel.x, bad.pixel.y,
+                                                   bad.pixel.x + 1, bad.pixel.y + 1);
+        fmt::print(stderr, "    pixel {},{} sample {}: alhazen render {}{}{}\n", bad.pixel.x, bad.pixel.y,
+                   bad.sample, quoted_for_shell(options.scene), crop,
+                   repeated_options(options.scene_options.settings, stats.samples));
+    }
 }
 
 RenderStats render_with_progress(World& world, const RenderOptions& options) {
@@ -167,14 +200,15 @@ std::filesystem::path picture_for_viewer(const World& world, const Image& image,
     return file;
 }
 
+std::vector<std::string> files_of(const RenderOptions& options) {
+    std::vector<std::string> files = options.outputs;
+    files.push_back(options.stats_file);
+    return files;
+}
+
 int run_render(RenderOptions& options) {
     for (const std::string& file : options.outputs) check_picture_output(file);
-    if (!options.stats_file.empty()) {
-        auto folder = std::filesystem::path(options.stats_file).parent_path();
-        if (!folder.empty() && !std::filesystem::is_directory(folder))
-            throw std::runtime_error(
-                fmt::format("cannot write \"{}\": there is no such folder", options.stats_file));
-    }
+    check_outputs(options.scene, files_of(options));
 
     Messages messages;
     messages.lenient = options.scene_options.lenient;
@@ -193,13 +227,14 @@ int run_render(RenderOptions& options) {
         std::string own = world->film->filename();
         options.outputs = {own.empty() ? scene_stem(options.scene) + ".exr" : own};
         check_picture_output(options.outputs.front());
+        check_outputs(options.scene, files_of(options));
     }
 
     RenderStats stats = render_with_progress(*world, options);
     Image image = world->film->image();
     write_outputs(*world, image, options.outputs);
     const std::size_t layers = write_layers(*world, options.outputs.front());
-    report_bad_samples(options, stats);
+    report_bad_samples(options, *world, stats);
     if (stats.quadrature) tell_quadrature(*stats.quadrature, *world, options.quiet);
     if (!options.stats_file.empty()) write_stats(options, *world, stats, timing, messages);
     if (stats.cancelled && !options.quiet)

@@ -8,6 +8,8 @@ namespace alhazen {
 
 std::string FieldDoc::range_text() const {
     constexpr double inf = std::numeric_limits<double>::infinity();
+    if (lowest > -inf && highest < inf && lowest_is_excluded)
+        return fmt::format("greater than {} and at most {}", lowest, highest);
     if (lowest > -inf && highest < inf) return fmt::format("{} to {}", lowest, highest);
     if (lowest > -inf) return fmt::format("{} {}", lowest_is_excluded ? "greater than" : "at least", lowest);
     if (highest < inf) return fmt::format("at most {}", highest);

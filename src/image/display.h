@@ -15,9 +15,9 @@ namespace alhazen {
 /// Throws std::runtime_error unless both have the same size and pixels.
 void check_same_size(const Image& a, const Image& b);
 
-/// sRGB-encoded, clamped to 0 ... 1; 0 for what is not finite.
+/// sRGB-encoded, clamped to 0 ... 1; 0 for what is no number.
 inline float display_value(float linear) {
-    if (!std::isfinite(linear)) return 0;
+    if (std::isnan(linear)) return 0;
     return srgb_encode(std::clamp(linear, 0.0f, 1.0f));
 }
 

@@ -63,7 +63,7 @@ Planes opponent_planes(const Image& image) {
         for (int x = 0; x < image.width(); ++x) {
             Vec3 c = image.rgb(x, y);
             // Through the display's curve and back: what is compared is the picture shown.
-            for (int i = 0; i < 3; ++i) c[i] = std::isfinite(c[i]) ? std::clamp(c[i], 0.0f, 1.0f) : 0.0f;
+            for (int i = 0; i < 3; ++i) c[i] = std::isnan(c[i]) ? 0.0f : std::clamp(c[i], 0.0f, 1.0f);
             Vec3 opponent = opponent_from_rgb(c);
             for (int i = 0; i < 3; ++i) out[static_cast<std::size_t>(i)].at(x, y) = opponent[i];
         }

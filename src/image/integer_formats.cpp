@@ -66,7 +66,7 @@ Image to_linear(const T* pixels, const StbInfo& info, Encoding encoding) {
 }
 
 std::uint8_t to_byte(float value, Transfer transfer) {
-    if (!std::isfinite(value)) return 0;
+    if (std::isnan(value)) return 0;
     float v = std::clamp(value, 0.0f, 1.0f);
     if (transfer == Transfer::srgb) v = srgb_encode(v);
     return static_cast<std::uint8_t>(std::lround(v * 255));

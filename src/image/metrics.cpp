@@ -97,6 +97,25 @@ std::optional<Metric> parse_metric(std::string_view name) {
     return static_cast<Metric>(found - names.begin());
 }
 
+namespace {
+
+bool has_nan(const Image& image) {
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const Vec3 c = image.rgb(x, y);
+            if (std::isnan(c.x) || std::isnan(c.y) || std::isnan(c.z)) return true;
+        }
+    return false;
+}
+
+// What is shown of a picture is always a number; a picture that holds what is none must not pass for another.
+MetricResult nan_for_nan(MetricResult result, const Image& a, const Image& b) {
+    if (has_nan(a) || has_nan(b)) result.value = std::nan("");
+    return result;
+}
+
+} // namespace
+
 MetricResult compute_metric(Metric metric, const Image& a, const Image& b) {
     switch (metric) {
     case Metric::mse:
@@ -106,9 +125,9 @@ MetricResult compute_metric(Metric metric, const Image& a, const Image& b) {
     case Metric::psnr:
         return psnr(a, b);
     case Metric::ssim:
-        return ssim(a, b);
+        return nan_for_nan(ssim(a, b), a, b);
     case Metric::flip:
-        return flip(a, b);
+        return nan_for_nan(flip(a, b), a, b);
     }
     RelMseResult r = relmse(a, b);
     return {r.value, std::move(r.error)};

@@ -26,6 +26,10 @@ struct AmbientOcclusion final : Integrator {
 
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         std::optional<Hit> hit = co_await path.closest(ray);
+        while (hit && hit->material->choose(*hit)->is_interface()) {
+            ray = hit->spawn(ray.d);
+            hit = co_await path.closest(ray);
+        }
         if (!hit) co_return Spectrum(0);
         Vec3 n = face_forward(hit->ng, hit->wo);
         Frame frame = Frame::from_z(n);

@@ -10,7 +10,7 @@ namespace alhazen {
 struct Arrival {
     float pdf = 0;        ///< of the BSDF sample that led here
     bool specular = true; ///< light sampling had no part in finding what this ray finds
-    LightReceiver from;
+    LightReceiver from;   ///< where the way here began, in a straight line but for borders of media
 
     float weight(float light_pdf) const { return power_heuristic(pdf, light_pdf, specular); }
 };
@@ -23,7 +23,7 @@ inline Spectrum escaped_light(const Ray& ray, const Arrival& arrival, const Path
         if (!arrival.specular)
             pdf = path.scene.light_probability(arrival.from, light) *
                   light->pdf_escaped_beside_bsdf(arrival.from, ray.d);
-        sum += light->escaped(ray.o, ray.d, path.lambda) * arrival.weight(pdf);
+        sum += light->escaped(arrival.from.p, ray.d, path.lambda) * arrival.weight(pdf);
     }
     return sum;
 }

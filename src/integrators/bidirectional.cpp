@@ -395,7 +395,7 @@ void Bidirectional::take_escaped(const Walk& walk, int number, const PathContext
     for (const Light* light : path.scene.infinite_lights()) {
         FoundPath found;
         found.strategy = {0, number};
-        found.L = walk.brings(light->escaped(walk.ray.o, walk.ray.d, walk.lambda));
+        found.L = walk.brings(light->escaped(walk.from.p, walk.ray.d, walk.lambda));
         if (found.L.is_black()) continue;
         found.one_wavelength = walk.lambda.secondary_terminated();
         // Directions are per steradian already.

@@ -119,7 +119,11 @@ class MltWork final : public PictureWork {
           mutations_(static_cast<std::int64_t>(picture.samples) * picture.film.pixels().width() *
                      picture.film.pixels().height()) {}
 
-    int passes() const override { return std::min(picture_.samples, 32); }
+    // Short enough to stop after.
+    int passes() const override {
+        const auto short_ones = static_cast<int>(std::min(mutations_ >> 20, std::int64_t{1} << 20));
+        return std::min(picture_.samples, std::max(32, short_ones));
+    }
 
     PictureCounts run(int pass, const std::function<void(double)>& progress) override {
         PictureCounts counts;

@@ -12,6 +12,7 @@ Task<Spectrum> trace_path(PathRules rules, Ray ray, PathContext& path) {
     float eta_scale = 1; // radiance squeezed by refraction, which Russian roulette must not count as loss
     bool rough_before = false;
     Arrival arrival;
+    arrival.from.p = ray.o;
 
     for (int depth = 0;;) {
         std::optional<Hit> hit = co_await path.closest(ray);

@@ -21,24 +21,25 @@ struct RandomWalk final : Integrator {
 
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         Spectrum sum = 0, throughput = 1;
+        Vec3 from = ray.o; // where the way began, in a straight line but for borders of media
         for (int depth = 0; !throughput.is_black();) {
             std::optional<Hit> hit = co_await path.closest(ray);
             if (!hit) {
                 for (const Light* light : path.scene.infinite_lights())
-                    sum += throughput * light->escaped(ray.o, ray.d, path.lambda);
+                    sum += throughput * light->escaped(from, ray.d, path.lambda);
                 break;
             }
             if (hit->area_light) sum += throughput * hit->area_light->emitted(*hit, path.lambda);
-            if (depth == maxdepth) break;
             Bsdf* bsdf = hit->material->at(*hit, path.lambda, path.arena);
             if (!bsdf) {
                 ray = hit->spawn(ray.d);
                 continue;
             }
-            ++depth;
+            if (depth++ == maxdepth) break;
             Frame frame = hit->shading_frame();
             Vec3 wi = sample_sphere(path.samples.next2());
             throughput *= bsdf->eval(frame.to_local(hit->wo), wi).f / sphere_pdf();
+            from = hit->p;
             ray = hit->spawn(frame.to_world(wi));
         }
         co_return sum;

@@ -28,13 +28,14 @@ struct SimplePath final : Integrator {
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         Spectrum sum = 0, throughput = 1;
         bool specular = true;
+        Vec3 from = ray.o; // where the way began, in a straight line but for borders of media
         for (int depth = 0; !throughput.is_black();) {
             std::optional<Hit> hit = co_await path.closest(ray);
             bool count_emission = !samplelights || specular;
             if (!hit) {
                 if (count_emission)
                     for (const Light* light : path.scene.infinite_lights())
-                        sum += throughput * light->escaped(ray.o, ray.d, path.lambda);
+                        sum += throughput * light->escaped(from, ray.d, path.lambda);
                 break;
             }
             if (hit->area_light && count_emission)
@@ -56,6 +57,7 @@ struct SimplePath final : Integrator {
             if (!next || next->pdf == 0) break;
             throughput *= next->f / next->pdf;
             specular = has(next->lobes, Lobes::specular);
+            from = hit->p;
             ray = hit->spawn(frame.to_world(next->wi));
         }
         co_return sum;

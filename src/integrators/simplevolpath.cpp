@@ -25,6 +25,7 @@ struct SimpleVolPath final : Integrator {
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
         Spectrum sum = 0;
         const Medium* medium = path.scene.medium_at_camera();
+        Vec3 from = ray.o; // where the way began, in a straight line but for borders of media
         path.lambda.terminate_secondary();
         LaneWeights weights(path.lambda, path.samples.next1());
         weights.follow(path.lambda);
@@ -33,20 +34,21 @@ struct SimpleVolPath final : Integrator {
             if (medium) {
                 ray.tmax = hit ? hit->t : infinity;
                 MediumNumbers numbers(path.samples);
-                MediumCrossing crossing =
-                    cross_medium(*medium, ray, depth < maxdepth, weights, path, numbers);
+                // What glows is seen at any depth, as by pbrt-v4's.
+                MediumCrossing crossing = cross_medium(*medium, ray, true, weights, path, numbers);
                 sum += crossing.emitted;
                 if (crossing.end == MediumCrossing::End::absorbed) break;
                 if (crossing.end == MediumCrossing::End::scattered) {
                     if (depth++ >= maxdepth) break;
                     const PhaseSample next = medium->phase().sample(crossing.wo, path.samples.next2());
+                    from = crossing.p;
                     ray = {crossing.p, next.wi, infinity, ray.time};
                     continue;
                 }
             }
             if (!hit) {
                 for (const Light* light : path.scene.infinite_lights())
-                    sum += weights.alone(light->escaped(ray.o, ray.d, path.lambda));
+                    sum += weights.alone(light->escaped(from, ray.d, path.lambda));
                 break;
             }
             if (hit->area_light) sum += weights.alone(hit->area_light->emitted(*hit, path.lambda));
@@ -60,6 +62,7 @@ struct SimpleVolPath final : Integrator {
                 if (!next || next->pdf == 0) break;
                 weights.scatter(next->f / next->pdf, next->pdf);
                 onward = frame.to_world(next->wi);
+                from = hit->p;
             }
             medium = medium_beyond(*hit, onward, medium);
             ray = hit->spawn(onward);

@@ -73,6 +73,7 @@ class SppmWork final : public PictureWork {
     PictureCounts run(int iteration, const std::function<void(double)>& progress) override {
         iteration_ = iteration;
         lambda_ = wavelengths();
+        time_ = spread(hash_of(picture_.seed, options_.seed, 1));
         counts_ = {};
         done_ = 0;
         work_ = pixels_.size() + photons_;
@@ -104,14 +105,19 @@ class SppmWork final : public PictureWork {
         Spectrum direct = 0;
     };
 
-    // All paths of an iteration have the same wavelengths, or photons and points would not fit together; from
-    // one iteration to the next they are spread evenly (van der Corput).
+    // All paths of an iteration have the same wavelengths and the same time, or photons and points would not
+    // fit together; from one iteration to the next they are spread evenly.
     Wavelengths wavelengths() const {
         if (picture_.mode == ColorMode::rgb) return Wavelengths::rgb();
+        return Wavelengths::sample_visible(spread(hash_of(picture_.seed, options_.seed)));
+    }
+
+    // The iteration's number of a sequence that is spread evenly, begun anywhere (van der Corput).
+    float spread(std::uint64_t beginning) const {
         std::uint32_t bits = 0, n = static_cast<std::uint32_t>(iteration_);
         for (int i = 0; i < 32; ++i, n >>= 1) bits = (bits << 1) | (n & 1);
-        const float u = unit_float(bits) + unit_float(hash_of(picture_.seed, options_.seed));
-        return Wavelengths::sample_visible(u < 1 ? u : u - 1);
+        const float u = unit_float(bits) + unit_float(beginning);
+        return u < 1 ? u : u - 1;
     }
 
     // The photons are spread as a picture's samples are, a sample of every "pixel" in each iteration.
@@ -172,7 +178,8 @@ class SppmWork final : public PictureWork {
         const FilterSample filter = picture_.filter.sample(samples.pixel2());
         CameraSample camera_sample;
         camera_sample.film = Vec2(at) + Vec2(0.5f, 0.5f) + filter.offset;
-        camera_sample.time = samples.next1();
+        camera_sample.time = time_;
+        samples.skip(1);
         camera_sample.lens = samples.next2();
         pixels_[number].point = {};
         const auto ray = picture_.camera.ray(camera_sample);
@@ -185,8 +192,8 @@ class SppmWork final : public PictureWork {
     /// Specular and glossy surfaces are traced through, as by the path tracer; at the first diffuse one, or
     /// where the path must end, photons are gathered.
     Task<bool> follow_sight(Spectrum throughput, Sight& sight, PathContext& path, Arena& points) {
-        Arrival arrival;
         Ray ray = sight.ray;
+        Arrival arrival{0, true, {ray.o, {}}};
         bool gathers = false;
         for (int depth = 0; !throughput.is_black();) {
             const std::optional<Hit> hit = co_await path.closest(ray);
@@ -275,8 +282,8 @@ class SppmWork final : public PictureWork {
     }
 
     Task<bool> follow_photon(PathContext& path) {
-        const float time =
-            lerp(path.samples.next1(), picture_.camera.shutteropen, picture_.camera.shutterclose);
+        path.samples.skip(1);
+        const float time = lerp(time_, picture_.camera.shutteropen, picture_.camera.shutterclose);
         const auto start = start_at_light(*lights_, path.samples, path.lambda, time);
         if (!start) co_return true;
         Spectrum flux = start->flux(), throughput = 1;
@@ -357,6 +364,7 @@ class SppmWork final : public PictureWork {
     std::unique_ptr<LightChooser> lights_;
     std::unique_ptr<Sampler> photon_numbers_;
     Wavelengths lambda_;
+    float time_ = 0; ///< of the iteration, as a part of the time that the shutter is open
     int iteration_ = 0;
     std::size_t work_ = 0;
     std::atomic<std::size_t> done_{0};

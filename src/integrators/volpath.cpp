@@ -51,6 +51,7 @@ struct VolPath final : PathIntegrator {
         Spectrum sum = 0;
         Walk walk;
         walk.ray = ray;
+        walk.from.p = ray.o;
         walk.medium = path.scene.medium_at_camera();
         walk.weights = LaneWeights(path.lambda, path.samples.next1());
         const Arena::Mark mark = path.arena.mark();
@@ -106,7 +107,7 @@ struct VolPath final : PathIntegrator {
             if (!walk.specular)
                 pdf = path.scene.light_probability(walk.from, light) *
                       light->pdf_escaped_beside_bsdf(walk.from, walk.ray.d);
-            sum += walk.found(light->escaped(walk.ray.o, walk.ray.d, path.lambda), pdf);
+            sum += walk.found(light->escaped(walk.from.p, walk.ray.d, path.lambda), pdf);
         }
         return sum;
     }

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "lab/json_text.h"
 #include "lab/report.h"
 
 namespace alhazen {
@@ -51,7 +52,7 @@ Json record(const LabReport& report, const WalkRecord& walk) {
 std::string to_json(const LabReport& report) {
     Json list = Json::array();
     for (const WalkRecord& walk : report.walks) list.push_back(record(report, walk));
-    return list.dump(2) + "\n";
+    return json_text(list);
 }
 
 } // namespace alhazen

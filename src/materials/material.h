@@ -30,6 +30,8 @@ struct Material {
     virtual bool needs_parameters() const { return true; }
     /// True when at() always returns nullptr.
     virtual bool is_interface() const { return false; }
+    /// Whether choose() may give a material that is_interface().
+    virtual bool may_be_interface() const { return is_interface(); }
     /// True when at() returns the same BSDF for every hit in RGB mode.
     virtual bool is_uniform() const { return false; }
     /// The material in effect at the hit: itself, or one of those it mixes.

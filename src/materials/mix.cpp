@@ -25,6 +25,12 @@ struct Mix final : Material {
     const Material* second = nullptr;
     std::uint64_t salt = 0; ///< mixtures of mixtures must not all choose alike
 
+    /// What holds of one of the two, or of both; found once, since mixtures may share much of what they mix.
+    struct Parts {
+        bool need_parameters = true, have_relief = false, have_subsurface = false;
+        bool are_interfaces = false, may_be_interfaces = false;
+    } parts;
+
     static void describe(Fields<Mix>& f) {
         f.about("Shows one of two materials at each point, at random.");
         f.field("materials", &Mix::materials, "names of the two materials").required();
@@ -45,6 +51,13 @@ struct Mix final : Material {
         first = find(materials[0], p, context);
         second = find(materials[1], p, context);
         salt = hash_of(hash_text(materials[0]), hash_text(materials[1]));
+        if (!first || !second) return;
+        parts.need_parameters =
+            !amount.is_constant() || first->needs_parameters() || second->needs_parameters();
+        parts.have_relief = first->has_relief() || second->has_relief();
+        parts.have_subsurface = first->has_subsurface() || second->has_subsurface();
+        parts.are_interfaces = first->is_interface() && second->is_interface();
+        parts.may_be_interfaces = first->may_be_interface() || second->may_be_interface();
     }
 
     static const Material* find(const std::string& name, const Parameter& p, BuildContext& context) {
@@ -66,18 +79,17 @@ struct Mix final : Material {
         float u = unit_float(hash_of(salt, bits(hit.p.x), bits(hit.p.y), bits(hit.p.z)));
         return (u < t ? second : first)->choose(hit);
     }
-    bool needs_parameters() const override {
-        return !amount.is_constant() || first->needs_parameters() || second->needs_parameters();
-    }
-    bool has_relief() const override { return first->has_relief() || second->has_relief(); }
+    bool needs_parameters() const override { return parts.need_parameters; }
+    bool has_relief() const override { return parts.have_relief; }
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {
         return choose(hit)->at(hit, lambda, arena);
     }
     const Bssrdf* subsurface(const Hit& hit, const Wavelengths& lambda, Arena& arena) const override {
         return choose(hit)->subsurface(hit, lambda, arena);
     }
-    bool has_subsurface() const override { return first->has_subsurface() || second->has_subsurface(); }
-    bool is_interface() const override { return first->is_interface() && second->is_interface(); }
+    bool has_subsurface() const override { return parts.have_subsurface; }
+    bool is_interface() const override { return parts.are_interfaces; }
+    bool may_be_interface() const override { return parts.may_be_interfaces; }
 };
 
 } // namespace

@@ -102,7 +102,10 @@ std::string spectra_text(int columns) {
 
 std::string family_text(const FamilyInfo& family) {
     std::string out = fmt::format("{}: {}\n\n", family.name, family.about);
-    for (const KindDoc& kind : family.kinds()) out += fmt::format("  {:<18}{}\n", kind.name, kind.about);
+    const std::vector<KindDoc> kinds = family.kinds();
+    std::size_t width = 16;
+    for (const KindDoc& kind : kinds) width = std::max(width, kind.name.size());
+    for (const KindDoc& kind : kinds) out += fmt::format("  {:<{}}{}\n", kind.name, width + 2, kind.about);
     return out;
 }
 

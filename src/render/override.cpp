@@ -59,8 +59,24 @@ Target find_target(SceneDescription& scene, const std::string& path) {
         return {node, is_spectrum ? "spectrum-texture" : "float-texture"};
     }
     if (family == "sdf") return {find_named(scene.sdfs, name, plain), family};
+    if (family == "medium") return {find_named(scene.media, name, plain), family};
+    if (family == "camera") return {find_named(scene.cameras, name, plain), family};
     if (family == "shape") return {find_named(scene.world.shapes, name, plain), family};
     return {};
+}
+
+// The names that a path may have, for suggestions.
+std::vector<std::string> known_paths(const SceneDescription& scene) {
+    std::vector<std::string> paths{"integrator", "camera", "film", "filter", "sampler", "accelerator"};
+    auto add = [&](std::string_view family, const Node& node) {
+        if (!node.name.empty()) paths.push_back(fmt::format("{}.{}", family, node.name));
+    };
+    for (const Node& node : scene.materials) add("material", node);
+    for (const TextureNode& t : scene.textures) add("texture", t.node);
+    for (const TextureNode& m : scene.media) add("medium", m.node);
+    for (const TextureNode& s : scene.sdfs) add("sdf", s.node);
+    for (const CameraNode& c : scene.cameras) add("camera", c.node);
+    return paths;
 }
 
 std::string default_type(const std::string& family) {
@@ -141,9 +157,9 @@ void apply_override(SceneDescription& scene, const std::string& text, Messages& 
     if (!target.node)
         return fail(
             fmt::format("the scene has no \"{}\"; one can set integrator, camera, film, filter, sampler, "
-                        "accelerator, material.NAME, texture.NAME, sdf.NAME, light.NUMBER, "
-                        "area-light.NUMBER, shape.NUMBER",
-                        path));
+                        "accelerator, camera.NAME, material.NAME, texture.NAME, medium.NAME, sdf.NAME, "
+                        "light.NUMBER, area-light.NUMBER, shape.NUMBER{}",
+                        path, did_you_mean(path, known_paths(scene))));
     if (target.node->type.empty()) target.node->type = default_type(target.family);
     auto doc = find_doc(target.family, target.node->type);
     if (!doc) return; // the unknown type is reported when the scene is built
@@ -151,8 +167,10 @@ void apply_override(SceneDescription& scene, const std::string& text, Messages& 
     for (const FieldDoc& field : doc->fields) {
         known.push_back(field.name);
         if (field.name != name) continue;
-        if (auto parameter = make_parameter(scene, field, value))
+        if (auto parameter = make_parameter(scene, field, value)) {
+            parameter->place = Place::of_file("--set " + text);
             return target.node->set(std::move(*parameter));
+        }
         return fail(fmt::format("\"{}\" is not a value of type {}", value, field.type));
     }
     fail(fmt::format("{} \"{}\" has no parameter \"{}\"{}", target.family, target.node->type, name,

@@ -25,8 +25,8 @@ struct DistanceScene::Collector {
             const TriangleMesh* mesh = shape.shape->triangles();
             if (!mesh)
                 throw std::runtime_error(
-                    "the scene has a shape that is no triangle mesh; accelerator \"sdf\" "
-                    "knows triangles only");
+                    "the scene has a shape that is no triangle mesh; accelerator \"sdf\" knows triangles "
+                    "only: take another accelerator, or leave out all shapes but meshes");
             bool is_border = shape.material && shape.material->is_interface();
             for (std::uint32_t i = 0; i < count && !is_border; ++i) {
                 auto [a, b, c] = mesh->vertices(i);

@@ -76,6 +76,7 @@ Object::Object(std::vector<PlacedShape> shapes, std::vector<PlacedObject> instan
         leaves_.push_back({placed.shape.get(), placed.shape->triangles(),
                            alpha.is_constant() && alpha.constant() >= 1,
                            placed.material && placed.material->is_interface(),
+                           placed.material && placed.material->may_be_interface(),
                            !placed.material || placed.material->needs_parameters() || !placed.lights.empty(),
                            placed.material && placed.material->has_relief(),
                            static_cast<std::uint32_t>(primitives_.size())});
@@ -124,7 +125,8 @@ void Object::set_balls_apart() {
     std::vector<BallList::Numbered> balls;
     for (std::uint32_t i = 0; i < primitives_.size(); ++i) {
         const Primitive& p = primitives_[i];
-        if (p.shape == instance_mark || !leaves_[p.shape].is_solid || leaves_[p.shape].is_interface) continue;
+        if (p.shape == instance_mark || !leaves_[p.shape].is_solid || leaves_[p.shape].may_be_interface)
+            continue;
         // What has no finite box is never hit.
         if (auto ball = shapes_[p.shape].shape->ball(); ball && is_finite(box_of(p).diagonal()))
             balls.push_back({*ball, i});
@@ -214,6 +216,15 @@ bool Object::alpha_passes(const Ray& ray, const Primitive& primitive, const Inte
     return unit_float(h) < alpha;
 }
 
+bool Object::stops(const Ray& ray, const Primitive& primitive, const Intersection& hit) const {
+    const Leaf& leaf = leaves_[primitive.shape];
+    if (leaf.is_interface) return false;
+    if (!leaf.is_solid && !alpha_passes(ray, primitive, hit)) return false;
+    if (!leaf.may_be_interface) return true;
+    const PlacedShape& placed = shapes_[primitive.shape];
+    return !placed.material->choose(placed.shape->surface(ray, primitive.primitive, hit))->is_interface();
+}
+
 /// Instances are searched from within the search outside: what is met there becomes the ray's find.
 class Object::ClosestTests final : public PrimitiveTests {
   public:
@@ -273,12 +284,10 @@ class Object::AnyTests final : public PrimitiveTests {
         }
         const Leaf& leaf = object_.leaves_[primitive.shape];
         return !leaf.is_interface && leaf.shape->intersect(q.ray, primitive.primitive, hit) &&
-               (leaf.is_solid || object_.alpha_passes(q.ray, primitive, hit));
+               object_.stops(q.ray, primitive, hit);
     }
     bool accept(const Question& q, const Intersection& hit) override {
-        const Primitive& primitive = object_.primitives_[q.primitive];
-        const Leaf& leaf = object_.leaves_[primitive.shape];
-        return !leaf.is_interface && (leaf.is_solid || object_.alpha_passes(q.ray, primitive, hit));
+        return object_.stops(q.ray, object_.primitives_[q.primitive], hit);
     }
 
   private:

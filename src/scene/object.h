@@ -132,13 +132,14 @@ class Object final : public Primitives {
         const Shape* shape;
         const TriangleMesh* mesh; ///< when the primitives are triangles
         bool is_solid, is_interface;
+        bool may_be_interface; ///< at some of its points
         bool needs_parameters; ///< whether anybody looks at a hit's uv or tangents
         bool has_relief;       ///< whether the material may turn a hit's normal
         std::uint32_t first;   ///< number of its first primitive
 
         PrimitiveKind kind() const {
             if (!mesh) return PrimitiveKind::custom;
-            return is_solid && !is_interface ? PrimitiveKind::triangle : PrimitiveKind::filtered_triangle;
+            return is_solid && !may_be_interface ? PrimitiveKind::triangle : PrimitiveKind::filtered_triangle;
         }
     };
 
@@ -148,6 +149,8 @@ class Object final : public Primitives {
     void set_balls_apart();
     Bounds3 box_of(const Primitive& primitive) const;
     bool alpha_passes(const Ray& ray, const Primitive& primitive, const Intersection& hit) const;
+    /// Whether the primitive, met there, stops a ray that asks for any hit.
+    bool stops(const Ray& ray, const Primitive& primitive, const Intersection& hit) const;
 
     std::vector<PlacedShape> shapes_;
     std::vector<PlacedObject> instances_;

@@ -105,14 +105,17 @@ struct ConeSdf final : SdfOf<ConeSdf> {
         double h = 0.5 * static_cast<double>(height);
         S rho = norm(p.x, p.y);
         S beyond = rho - S(value_of(p.z) < 0 ? r0 : r1);
-        S end = norm(std::max(beyond, S(0.0)), absolute(p.z) - S(h));
+        // On the surface a norm has no gradient, a difference has.
+        S above = absolute(p.z) - S(h);
+        S end = beyond > S(0.0) ? norm(beyond, above) : absolute(above);
         double along_x = r1 - r0, along_z = 2 * h, length2 = along_x * along_x + along_z * along_z;
         S t =
             std::clamp(((rho - S(r0)) * S(along_x) + (p.z + S(h)) * S(along_z)) / S(length2), S(0.0), S(1.0));
-        S side = norm(rho - S(r0) - t * S(along_x), p.z + S(h) - t * S(along_z));
         // Outside of the slanted side: on the side its normal (along_z, -along_x) points to.
-        double over = value_of((rho - S(r0)) * S(along_z) - (p.z + S(h)) * S(along_x));
-        bool is_inside = over < 0 && std::abs(value_of(p.z)) < h;
+        S over = ((rho - S(r0)) * S(along_z) - (p.z + S(h)) * S(along_x)) * S(1 / std::sqrt(length2));
+        bool is_beside = value_of(t) > 0 && value_of(t) < 1;
+        S side = is_beside ? absolute(over) : norm(rho - S(r0) - t * S(along_x), p.z + S(h) - t * S(along_z));
+        bool is_inside = value_of(over) < 0 && std::abs(value_of(p.z)) < h;
         S least = std::min(end, side);
         return is_inside ? -least : least;
     }

@@ -53,7 +53,7 @@ double largest_stretch(const Matrix4& m) {
 PlacedSdf::PlacedSdf(std::shared_ptr<const Sdf> sdf, const Matrix4& parent_from_node)
     : sdf_(std::move(sdf)), node_from_parent_(parent_from_node.inverse().value_or(Matrix4{})),
       is_identity_(parent_from_node == Matrix4{}), scale_(is_identity_ ? 1 : least_stretch(parent_from_node)),
-      bounds_(transformed(parent_from_node, sdf_->bounds())) {}
+      noise_(sdf_->noise() * scale_), bounds_(transformed(parent_from_node, sdf_->bounds())) {}
 
 namespace {
 

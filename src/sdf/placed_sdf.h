@@ -20,7 +20,7 @@ class PlacedSdf {
     Dual value(TVec3<Dual> p) const { return at(p); }
     /// In the parent's coordinates.
     const Box& bounds() const { return bounds_; }
-    double noise() const { return sdf_->noise() * scale_; }
+    double noise() const { return noise_; }
 
   private:
     template <class S>
@@ -47,6 +47,7 @@ class PlacedSdf {
     Matrix4 node_from_parent_;
     bool is_identity_ = false;
     double scale_ = 1; ///< by how much parent_from_node stretches lengths at least
+    double noise_ = 0; ///< found once: bodies may share much of what they are made of
     Box bounds_;
 };
 

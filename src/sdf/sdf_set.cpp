@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "describe/nesting.h"
+
 namespace alhazen {
 
 void SdfSet::build(const std::vector<TextureNode>& nodes, BuildContext& context) {
     context.sdfs = this;
     nodes_.clear();
+    NestingGuard nesting;
     for (const TextureNode& description : nodes) {
         const Node& node = description.node;
         const Motion& motion = description.world_from_texture;
@@ -18,7 +21,9 @@ void SdfSet::build(const std::vector<TextureNode>& nodes, BuildContext& context)
         if (motion.is_animated())
             context.messages.add_unsupported(node.place, "moving sdfs are not supported yet",
                                              "the place at the start of the motion");
-        std::shared_ptr<const Sdf> sdf = sdf_kinds().make(node, context, "");
+        std::shared_ptr<const Sdf> sdf;
+        if (nesting.add(node, ValueType::string, "sdfs", context.messages))
+            sdf = sdf_kinds().make(node, context, "");
         nodes_[node.name] = sdf ? std::make_shared<const PlacedSdf>(sdf, motion.start) : nullptr;
     }
 }

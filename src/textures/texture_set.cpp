@@ -8,6 +8,7 @@
 
 #include "base/threads.h"
 #include "describe/build_apart.h"
+#include "describe/nesting.h"
 #include "textures/image_cache.h"
 
 namespace alhazen {
@@ -99,12 +100,21 @@ void TextureSet::build(const std::vector<TextureNode>& nodes, BuildContext& cont
     state_->color_mode = context.color_mode;
     state_->base_folder = context.base_folder;
     state_->lenient = context.messages.lenient;
+    NestingGuard nesting;
     for (const TextureNode& description : nodes) {
         const std::string& name = description.node.name;
         if (description.is_spectrum ? has_spectrum(name) : has_float(name)) {
             context.messages.add_error(description.node.place,
                                        fmt::format("the {} texture \"{}\" is already defined",
                                                    description.is_spectrum ? "spectrum" : "float", name));
+            continue;
+        }
+        if (!nesting.add(description.node, ValueType::texture, "textures", context.messages)) {
+            // It is there, but cannot be used: what names it need not complain.
+            if (description.is_spectrum)
+                state_->spectra[name];
+            else
+                state_->floats[name] = nullptr;
             continue;
         }
         if (description.is_spectrum) {

@@ -1,8 +1,11 @@
 /// Scene texts that are wrong, each with the message it must give. None may crash, hang or be accepted.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
 #include "formats/format.h"
+#include "render/world.h"
 
 namespace alhazen {
 namespace {
@@ -153,6 +156,35 @@ TEST(MalformedPbrt, GoesOnAtTheNextDirective) {
         "vector3, "
         "normal, rgb, blackbody, spectrum, string, texture\n"
         "5:1: error: AttributeEnd without an AttributeBegin");
+}
+
+// Small files that would be large if everything that is named twice were there twice.
+TEST(MalformedPbrt, SharedPartsAreNotFollowedAgainAndAgain) {
+    std::string materials = "WorldBegin\nMakeNamedMaterial \"m0\" \"string type\" \"diffuse\"\n";
+    std::string bodies = "WorldBegin\nSdf \"s0\" \"sphere\"\n", textures = "WorldBegin\n";
+    textures += "Texture \"t0\" \"spectrum\" \"constant\"\n";
+    for (int i = 1; i < 60; ++i) {
+        materials += fmt::format("MakeNamedMaterial \"m{0}\" \"string type\" \"mix\" \"string materials\" "
+                                 "[ \"m{1}\" \"m{1}\" ]\n",
+                                 i, i - 1);
+        bodies += fmt::format("Sdf \"s{0}\" \"union\" \"string children\" [ \"s{1}\" \"s{1}\" ]\n", i, i - 1);
+        textures += fmt::format("Texture \"t{0}\" \"spectrum\" \"mix\" \"texture tex1\" \"t{1}\" "
+                                "\"texture tex2\" \"t{1}\"\n",
+                                i, i - 1);
+    }
+    auto errors = [](const std::string& text) {
+        Messages messages;
+        try {
+            build_world(read_pbrt_string(text, "/nonexistent", messages), {}, messages);
+        } catch (const SceneError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(errors(materials + "NamedMaterial \"m59\"\nShape \"sphere\"\n"), "");
+    EXPECT_THAT(errors(bodies + "Shape \"sdf\" \"string field\" \"s59\"\n"),
+                ::testing::HasSubstr("is made of more than 1000000 sdfs"));
+    EXPECT_THAT(errors(textures), ::testing::HasSubstr("is made of more than 1000000 textures"));
 }
 
 TEST(MalformedPbrt, StopsAfterTwentyErrors) {

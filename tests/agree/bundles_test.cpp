@@ -58,7 +58,7 @@ struct Case {
     bool shadows = true, is_lit = true;
 };
 
-const std::string eye = R"(
+const std::string camera_at_9 = R"(
 Film "rgb" "integer xresolution" 61 "integer yresolution" 45
 LookAt 0 2 -9  0 1 0  0 1 0
 Camera "perspective" "float fov" 40
@@ -66,7 +66,7 @@ Camera "perspective" "float fov" 40
 
 std::string integrator(const Case& c) {
     return "Integrator \"whitted\" \"rgb ambient\" [ .1 .2 .3 ] \"integer maxdepth\" " +
-           std::to_string(c.maxdepth) + " \"bool shadows\" " + (c.shadows ? "true" : "false") + eye;
+           std::to_string(c.maxdepth) + " \"bool shadows\" " + (c.shadows ? "true" : "false") + camera_at_9;
 }
 
 std::string number(float v) {
@@ -223,7 +223,7 @@ Camera "perspective" "float fov" 40 "float lensradius" .2 "float focaldistance" 
 
 // Infinite and undefined values come out as they do one by one, and are counted.
 TEST(Bundles, CountValuesThatAreNotFinite) {
-    const std::string text = "Integrator \"whitted\"\n" + eye + R"(
+    const std::string text = "Integrator \"whitted\"\n" + camera_at_9 + R"(
 WorldBegin
 LightSource "point" "point3 from" [ 0 9 -9 ] "rgb I" [ 3e38 3e38 3e38 ] "string falloff" "none"
 LightSource "point" "point3 from" [ 0 9 -8 ] "rgb I" [ 3e38 3e38 3e38 ] "string falloff" "none"
@@ -240,7 +240,7 @@ Shape "sphere" "float radius" 2
 
 // Scenes that have anything that kernels do not know are left to single paths.
 TEST(Bundles, AreForBallsOfOneColorOnly) {
-    const std::string start = "Integrator \"whitted\"\n" + eye;
+    const std::string start = "Integrator \"whitted\"\n" + camera_at_9;
     const std::string light = "LightSource \"point\"\n";
     const std::string ball = "Material \"phong\"\nShape \"sphere\"\n";
     auto is_bundled = [&](const std::string& world) {

@@ -138,6 +138,24 @@ TEST_F(Commands, DiffPrintsEveryMetricAndJudges) {
     EXPECT_THAT(alhazen("diff a.pfm small.pfm").err, HasSubstr("differ in size"));
 }
 
+TEST_F(Commands, CompareLeavesOutWhatTheFilmCannotTake) {
+    write_scene();
+    std::string scene = file_text(path("scene.pbrt"));
+    scene.replace(scene.find("Film \"rgb\""), 10, "Film \"gbuffer\"");
+    write("layers.pbrt", scene);
+    const Outcome o = alhazen("compare layers.pbrt -o a.png --json a.json --spp 1");
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(alhazen("compare layers.pbrt -o a.png --json none/a.json --spp 1").exit_code, 2);
+}
+
+TEST_F(Commands, HelpKnowsCommandsFromTypes) {
+    const Outcome o = alhazen("help render");
+    EXPECT_EQ(o.exit_code, 2);
+    EXPECT_THAT(o.err, HasSubstr("\"render\" is a command; alhazen render --help explains it"));
+    EXPECT_EQ(alhazen("help spectrum gold").exit_code, 2);
+    EXPECT_THAT(alhazen("help material").out, HasSubstr("diffusetransmission  "));
+}
+
 TEST_F(Commands, HelpExplainsEverythingRegistered) {
     Outcome all = alhazen("help");
     for (const char* family :

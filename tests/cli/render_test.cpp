@@ -246,6 +246,7 @@ TEST_F(Render, ArgumentsThatAreWrong) {
         expect_error(fmt::format("render scene.pbrt --texture-memory {}", size),
                      "is not an amount of memory");
     expect_error("render scene.pbrt --stats none/s.json -o a.png", "cannot write \"none/s.json\"");
+    expect_error("render scene.pbrt --seed 99999999999999999999", "is not a whole number from 0 to");
     expect_error("render scene.pbrt --set maxdepth=3", "write it as FAMILY.PARAMETER=VALUE");
     expect_error("render scene.pbrt --set integrator.maxdept=3",
                  "integrator \"path\" has no parameter \"maxdept\" (did you mean \"maxdepth\"?)");
@@ -256,6 +257,72 @@ TEST_F(Render, ArgumentsThatAreWrong) {
     expect_error("rendr scene.pbrt", "unknown command \"rendr\" (did you mean \"render\"?)");
     expect_error("render scene.pbrt --seed -1", "--seed");
     expect_error("render scene.pbrt --size 60000x60000", "is too large; at most");
+}
+
+TEST_F(Render, LosesNoFile) {
+    const std::string scene = file_text(path("scene.pbrt"));
+    expect_error("render scene.pbrt -o a.png --stats scene.pbrt", "it is what is read; give another name");
+    expect_error("render scene.pbrt -o a.png --stats ./scene.pbrt", "it is what is read");
+    EXPECT_EQ(file_text(path("scene.pbrt")), scene);
+    expect_error("render scene.pbrt -o a.png --stats a.png", "cannot write \"a.png\" twice");
+    expect_error("render scene.pbrt -o a.png -o ./a.png", "cannot write \"./a.png\" twice");
+    expect_error("render scene.pbrt --stats scene.exr", "cannot write \"scene.exr\" twice");
+    expect_error("render scene.pbrt -o a.png --stats .", "it is a folder");
+    // A link leads to the same place afterwards.
+    write("real.png", "");
+    std::filesystem::create_symlink("real.png", path("link.png"));
+    ASSERT_EQ(alhazen("render scene.pbrt -o link.png").exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(path("link.png")));
+    EXPECT_EQ(picture("real.png").size(), (Vec2i{32, 24}));
+}
+
+TEST_F(Render, TheNameOfTheSceneIsKeptWhole) {
+    std::filesystem::rename(path("scene.pbrt"), path("my.scene.v2.pbrt"));
+    ASSERT_EQ(alhazen("render my.scene.v2.pbrt").exit_code, 0);
+    EXPECT_TRUE(exists("my.scene.v2.exr"));
+    ASSERT_EQ(shell("gzip my.scene.v2.pbrt && rm my.scene.v2.exr").exit_code, 0);
+    ASSERT_EQ(alhazen("render my.scene.v2.pbrt.gz").exit_code, 0);
+    EXPECT_TRUE(exists("my.scene.v2.exr"));
+}
+
+TEST_F(Render, NamesMayHoldAnyBytes) {
+    write("bytes.pbrt", file_text(path("scene.pbrt")) + "\nCoordSysTransform \"caf\xe9\"\n");
+    const Outcome o = alhazen("render bytes.pbrt -o a.png --stats s.json");
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    const auto stats = nlohmann::json::parse(file_text(path("s.json")));
+    EXPECT_EQ(stats["warnings"].size(), 1u);
+    EXPECT_EQ(alhazen("info bytes.pbrt --json").exit_code, 0);
+}
+
+TEST_F(Render, SamplesThatAreNotNumbersCanBeSeenAgain) {
+    write("a bright.pbrt", R"(Integrator "whitted"
+Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+LookAt 0 0 -4  0 0 0  0 1 0
+Camera "perspective" "float fov" 30
+WorldBegin
+LightSource "point" "point3 from" [ 0 0 -4 ] "rgb I" [ 3e38 3e38 3e38 ] "string falloff" "none"
+LightSource "point" "point3 from" [ 0 1 -4 ] "rgb I" [ 3e38 3e38 3e38 ] "string falloff" "none"
+Material "phong" "rgb diffuse" [ 1 1 1 ]
+Shape "sphere"
+)");
+    const Outcome o = alhazen("render 'a bright.pbrt' --seed 5 --set integrator.maxdepth=2 -o a.pfm");
+    ASSERT_THAT(o.err, HasSubstr("samples were not finite numbers"));
+    const auto command = o.err.find("alhazen render"), end = o.err.find('\n', command);
+    const std::string again = o.err.substr(command + 8, end - command - 8);
+    EXPECT_THAT(again, HasSubstr("--seed 5 --set integrator.maxdepth=2"));
+    EXPECT_THAT(alhazen(again + " -o b.pfm").err, HasSubstr("samples were not finite numbers"));
+}
+
+TEST_F(Render, SetNamesMediaAndCameras) {
+    write("fog.pbrt", R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+MakeNamedMedium "Fog" "string type" "homogeneous"
+Camera "perspective" "float fov" 40
+WorldBegin
+LightSource "infinite"
+)");
+    ASSERT_EQ(alhazen("render fog.pbrt --set medium.Fog.g=.5 -o a.png").exit_code, 0);
+    expect_error("render fog.pbrt --set medium.Fgo.g=.5", "did you mean \"medium.Fog\"?");
+    expect_error("render fog.pbrt --set medium.Fog.g=5", "--set medium.Fog.g=5: error: parameter \"g\" is 5");
 }
 
 TEST_F(Render, ValuesOutOfRangeNameTheirPlace) {

@@ -110,14 +110,14 @@ TEST(IntegerFiles, AlphaAndGreyByteExact) {
 }
 
 TEST(IntegerFiles, RoundsToTheNearestLevelAndClamps) {
-    Image image = Image::grey_image(6, 1);
+    Image image = Image::grey_image(7, 1);
     const float values[] = {0.4999f / 255, 0.5001f / 255, -3, 7, std::numeric_limits<float>::quiet_NaN(),
-                            infinity};
-    const float expected[] = {0, 1.0f / 255, 0, 1, 0, 0};
+                            infinity,      -infinity};
+    const float expected[] = {0, 1.0f / 255, 0, 1, 0, 1, 0};
     std::copy(std::begin(values), std::end(values), image.values().begin());
     Image read =
         round_trip(".png", image, {.transfer = Transfer::linear, .metadata = {}}, {Encoding::linear()});
-    for (int x = 0; x < 6; ++x) EXPECT_EQ(read.at(x, 0), expected[x]) << x;
+    for (int x = 0; x < 7; ++x) EXPECT_EQ(read.at(x, 0), expected[x]) << x;
 }
 
 TEST(IntegerFiles, AutomaticIsSrgbAndGammaIsTaken) {

@@ -112,6 +112,24 @@ TEST(SdfDistances, OfAnEllipsoidSatisfyTheNormalEquation) {
     }
 }
 
+// Where points lie on flat and slanted sides to the last bit, the normal is that of the side.
+TEST(SdfDistances, HaveNormalsOnTheSurfaceItself) {
+    SdfSet set =
+        make_sdfs({sdf_node("bucket", "cone", {make_float("radius", 0.5f), make_float("topradius", 1)}),
+                   sdf_node("tube", "cylinder", {}), sdf_node("cube", "box", {})});
+    for (const char* name : {"bucket", "tube", "cube"})
+        for (double z : {-1.0, 1.0})
+            for (const Vec3d& p : {Vec3d{0.1, 0.2, z}, Vec3d{0, 0, z}, Vec3d{-0.3, 0, z}}) {
+                const Dual f = set.find(name)->value(dual_point(p));
+                EXPECT_EQ(f.v, 0) << name;
+                EXPECT_EQ(f.d, (Vec3d{0, 0, z})) << name;
+            }
+    // Halfway up the slanted side, which runs from (0.5, -1) to (1, 1).
+    const Dual f = set.find("bucket")->value(dual_point(Vec3d{0.75, 0, 0}));
+    EXPECT_NEAR(f.v, 0, 1e-15);
+    EXPECT_NEAR(length(f.d - normalize(Vec3d{2, 0, -0.5})), 0, 1e-12);
+}
+
 TEST(SdfOperators, SmoothUnionsAreAQuarterOfTheSeamLower) {
     SdfSet set = make_sdfs(
         {sdf_node("a", "sphere", {}, Matrix4::translate({-1, 0, 0})),
