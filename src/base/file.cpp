@@ -3,10 +3,10 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -120,7 +120,7 @@ void write_file(const std::filesystem::path& target, std::string_view bytes) {
         out.close();
         if (!out)
             throw std::runtime_error(
-                fmt::format("cannot write {}: {}", target.string(), std::strerror(errno)));
+                fmt::format("cannot write {}: {}", target.string(), std::generic_category().message(errno)));
     });
 }
 

@@ -19,7 +19,7 @@ bool FlatCamera::finish_flat(const Node& node, BuildContext& context) {
     Vec2d lo = aspect > 1 ? Vec2d(-aspect, -1) : Vec2d(-1, -1 / aspect);
     Vec2d hi = -lo;
     if (!screenwindow.empty()) {
-        Place place = node.place_of("screenwindow");
+        const Place& place = node.place_of("screenwindow");
         if (screenwindow.size() != 4) {
             context.messages.add_error(place, "parameter \"screenwindow\" has " +
                                                   std::to_string(screenwindow.size()) +

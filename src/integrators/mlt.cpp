@@ -138,7 +138,8 @@ class MltWork final : public PictureWork {
             std::scoped_lock lock(mutex);
             counts += part;
         });
-        const auto so_far = static_cast<double>(mutations_ * (pass + 1) / passes());
+        const std::int64_t whole = mutations_ * (pass + 1) / passes();
+        const auto so_far = static_cast<double>(whole);
         const double pixels = static_cast<double>(mutations_) / picture_.samples;
         picture_.film.set_splat_scale(brightness_ * pixels / rendered_fraction(picture_.film) / so_far);
         return counts;

@@ -174,7 +174,7 @@ std::optional<float> DistanceScene::march(Vec3 o, Vec3 d, float s, float end) co
     float before = 0, stretched = 0, last_step = 0;
     std::uint32_t passed = none;
     const Vec3i last = n_ - Vec3i{1, 1, 1};
-    auto nearest = [](float x, int most) { return std::clamp(static_cast<int>(x + 0.5f), 0, most); };
+    auto nearest = [](float x, int most) { return std::clamp(floor_to_int(x + 0.5f), 0, most); };
     while (s < end) {
         const Vec3 q = o + d * s;
         const Vec3i node{nearest(q.x, last.x), nearest(q.y, last.y), nearest(q.z, last.z)};
