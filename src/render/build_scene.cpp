@@ -1,5 +1,7 @@
 #include "render/build_scene.h"
 
+#include <algorithm>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -47,9 +49,10 @@ class SceneBuilder {
     }
 
     Transform placement(const Motion& motion, const Place& place) {
-        if (!motion.start.inverse())
+        const Transform made(motion.start); // the identity, where that cannot be inverted
+        if (!(made.matrix() == motion.start))
             context_.messages.add_error(place, "the transformation here is not invertible");
-        return Transform(motion.start);
+        return made;
     }
 
     // The finished object; nullptr with an error added when it cannot be had.
@@ -151,30 +154,39 @@ class SceneBuilder {
         return placed;
     }
 
-    // Shapes load in parallel; messages and lights keep the order of the file.
+    // Shapes load in parallel; messages and lights keep the order of the file. Of many, what is said of them
+    // is freed as they are made, so that both are never there at once.
     std::vector<PlacedShape> make_shapes(ObjectNode& node) {
+        constexpr std::size_t many = 8192;
         std::vector<PlacedShape> shapes(node.shapes.size());
-        std::vector<Transform> placements;
-        for (const ShapeNode& s : node.shapes)
-            placements.push_back(placement(s.world_from_object, s.node.place));
-        parallel_for(shapes.size(), 1, [&](std::size_t i) {
-            BuildContext context = context_;
-            context.world_from_node = placements[i];
-            context.reverse_orientation = node.shapes[i].reverse_orientation;
-            shapes[i].shape = shape_kinds().make(node.shapes[i].node, context, "");
-            node.shapes[i].node.parameters = {}; // the arrays have been read; free them
-        });
-        for (std::size_t i = 0; i < shapes.size(); ++i) {
-            if (!shapes[i].shape) continue;
-            const Node& source = node.shapes[i].node;
-            if (sources_) sources_->emplace(shapes[i].shape.get(), ShapeSource{source.type, source.place});
-            shapes[i].material = material_of(node.shapes[i]);
-            shapes[i].media = {medium(node.shapes[i].inside_medium, node.shapes[i]),
-                               medium(node.shapes[i].outside_medium, node.shapes[i])};
-            if (node.shapes[i].area_light >= 0) add_area_lights(node, node.shapes[i], shapes[i]);
+        for (std::size_t first = 0; first < shapes.size(); first += many) {
+            const std::size_t count = std::min(many, shapes.size() - first);
+            make_some_shapes(node, std::span(shapes).subspan(first, count));
+            node.shapes.erase(node.shapes.begin(), node.shapes.begin() + static_cast<std::ptrdiff_t>(count));
         }
         std::erase_if(shapes, [](const PlacedShape& s) { return !s.shape; });
         return shapes;
+    }
+
+    // The node's first ones.
+    void make_some_shapes(ObjectNode& node, std::span<PlacedShape> shapes) {
+        parallel_for(shapes.size(), 1, [&](std::size_t i) {
+            ShapeNode& source = node.shapes[i];
+            BuildContext context = context_;
+            context.world_from_node = placement(source.world_from_object, source.node.place);
+            context.reverse_orientation = source.reverse_orientation;
+            shapes[i].shape = shape_kinds().make(source.node, context, "");
+            source.node.parameters = {}; // the arrays have been read; free them
+        });
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            if (!shapes[i].shape) continue;
+            const ShapeNode& source = node.shapes[i];
+            if (sources_)
+                sources_->emplace(shapes[i].shape.get(), ShapeSource{source.node.type, source.node.place});
+            shapes[i].material = material_of(source);
+            shapes[i].media = {medium(source.inside_medium, source), medium(source.outside_medium, source)};
+            if (source.area_light >= 0) add_area_lights(node, source, shapes[i]);
+        }
     }
 
     const Material* material_of(const ShapeNode& shape) {

@@ -95,9 +95,9 @@ ALHAZEN_INLINE Color local_light(const PhongLanes& k, const Vector3& wo, const V
         is_shiny |= k.specular.c[c] != 0;
     }
     const Floats r_dot_v = -wi.x * wo.x + -wi.y * wo.y + wi.z * wo.z;
-    const Ints has_highlight = is_shiny & ~(r_dot_v <= 0);
-    if (any(is_lit & has_highlight)) {
-        const Floats lobe = raised(r_dot_v, k.shininess);
+    const Ints has_highlight = is_lit & is_shiny & (r_dot_v > 0);
+    if (any(has_highlight)) {
+        const Floats lobe = raised(has_highlight ? r_dot_v : Floats{} + 1.0f, k.shininess);
         for (int c = 0; c < colors; ++c) f.c[c] = has_highlight ? f.c[c] + k.specular.c[c] * lobe : f.c[c];
     }
     Ints is_black = Ints{} - 1;
