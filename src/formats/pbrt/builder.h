@@ -13,7 +13,7 @@ class PbrtBuilder {
   public:
     PbrtBuilder(std::filesystem::path file, std::filesystem::path base_folder, Messages& messages);
 
-    const std::string& color_space() const { return scope_.state.color_space; }
+    const RgbColorSpace& color_space() const { return *scope_.state.color_space; }
     Messages& messages() { return messages_; }
 
     // Transformations of what follows.

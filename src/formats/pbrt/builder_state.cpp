@@ -14,8 +14,6 @@ namespace {
 // No scene nests so deep; a broken exporter's may, and each level holds a copy of the state.
 constexpr std::size_t deepest_nesting = 10000;
 
-const std::vector<std::string> color_space_names{"srgb", "dci-p3", "rec2020", "aces2065-1"};
-
 Matrix4 from_columns(const std::array<double, 16>& m) {
     Matrix4 matrix;
     for (std::size_t i = 0; i < 16; ++i) matrix.m[i % 4][i / 4] = m[i];
@@ -205,13 +203,11 @@ void PbrtBuilder::attribute(Node node, Place place) {
 }
 
 void PbrtBuilder::color_space(const std::string& name, Place place) {
-    std::string low = name;
-    for (char& c : low) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-    if (std::find(color_space_names.begin(), color_space_names.end(), low) == color_space_names.end())
-        messages_.add_error(std::move(place), fmt::format("unknown color space \"{}\"{}", printable(name),
-                                                          did_you_mean(name, color_space_names)));
+    if (const RgbColorSpace* space = find_color_space(name))
+        scope_.state.color_space = space;
     else
-        scope_.state.color_space = low;
+        messages_.add_error(std::move(place), fmt::format("unknown color space \"{}\"{}", printable(name),
+                                                          did_you_mean(name, color_space_names())));
 }
 
 void PbrtBuilder::reverse_orientation(Place place) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "color/color_space.h"
 #include "describe/scene_description.h"
 
 namespace alhazen {
@@ -26,7 +27,7 @@ struct GraphicsState {
     Motion transform; ///< pbrt's current transformation matrix: world from object
     unsigned active_transforms = both_bits;
     bool reverse_orientation = false;
-    std::string color_space = "srgb";
+    const RgbColorSpace* color_space = &srgb_space();
     int material = -1; ///< index of an anonymous material; -1: see named_material
     NameInForce named_material;
     int area_light = -1;

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
-#include "color/color_space.h"
 #include "formats/pbrt/directives.h"
 #include "formats/pbrt/parameters.h"
 #include "formats/pbrt/version3.h"
@@ -123,8 +122,9 @@ Node PbrtParser::node(const Place& place, bool rgb_lists) {
     Node node;
     node.type = string("a type");
     node.place = place;
-    node.color_space = find_color_space(builder_.color_space());
-    node.parameters = read_parameters(tokens(), {builder_.messages(), builder_.color_space(), rgb_lists});
+    node.color_space = &builder_.color_space();
+    node.parameters =
+        read_parameters(tokens(), {builder_.messages(), builder_.color_space().name, rgb_lists});
     return node;
 }
 
