@@ -167,10 +167,14 @@ TEST(Bundles, GiveTheBitsOfRaysFollowedOneByOne) {
     }
 }
 
-// Where rounding is worst: rays from far away, rays that graze a ball, balls that touch where they are met.
+// Where rounding is worst: rays from far away, rays that graze a ball, balls that touch where they are met,
+// of all sizes.
 TEST(Bundles, GiveTheBitsOfRaysThatAreHardToFollow) {
-    auto world = world_of_balls(integrator({}) + R"(WorldBegin
-LightSource "point" "point3 from" [ -3 4 -9 ]
+    for (const float scale : {1e-22f, 1e-6f, 1.0f, 1e6f}) {
+        SCOPED_TRACE(scale);
+        const std::string size = number(scale);
+        auto world = world_of_balls(integrator({}) + "WorldBegin\nScale " + size + size + size + R"(
+LightSource "point" "point3 from" [ -3 4 -9 ] "string falloff" "none"
 Material "phong" "rgb diffuse" [ .1 .9 .1 ] "float reflectivity" .3
 AttributeBegin
 Translate 0 0 2
@@ -180,17 +184,21 @@ Material "phong" "rgb diffuse" [ .9 .1 .1 ] "float transparency" .5
 Translate 0 0 1
 Shape "sphere" "float radius" 1
 )");
-    std::vector<Ray> rays{{{0, 0, -5}, {0, 0, 1}}, {{0, 0, -5}, {0, 0, 3}}, {{0, 0, 0}, {0, 0, 1}}};
-    Rng rng(3);
-    for (int i = 0; i < 4000; ++i) {
-        const float distance = std::pow(10.0f, 7 * rng.uniform()), miss = std::pow(10.0f, -7 * rng.uniform());
-        const float radius = i % 2 ? 1 : 2, beside = i % 4 < 2 ? radius * (1 - miss) : radius * rng.uniform();
-        const float angle = 2 * pi * rng.uniform();
-        const Vec3 o{beside * std::cos(angle), beside * std::sin(angle), -distance};
-        rays.push_back({o, {0, 0, i % 3 ? 1 : distance}});
+        std::vector<Ray> rays{{{0, 0, -5}, {0, 0, 1}}, {{0, 0, -5}, {0, 0, 3}}, {{0, 0, 0}, {0, 0, 1}}};
+        Rng rng(3);
+        for (int i = 0; i < 4000; ++i) {
+            const float distance = std::pow(10.0f, 7 * rng.uniform()),
+                        miss = std::pow(10.0f, -7 * rng.uniform());
+            const float radius = i % 2 ? 1 : 2,
+                        beside = i % 4 < 2 ? radius * (1 - miss) : radius * rng.uniform();
+            const float angle = 2 * pi * rng.uniform();
+            const Vec3 o{beside * std::cos(angle), beside * std::sin(angle), -distance};
+            rays.push_back({o, {0, 0, i % 3 ? 1 : distance}});
+        }
+        for (Ray& ray : rays) ray.o *= scale;
+        EXPECT_GT(count_lit(*world, rays), 3000);
+        expect_same(*world, rays, {5, true, {.1f, .2f, .3f, .2f}});
     }
-    EXPECT_GT(count_lit(*world, rays), 3000);
-    expect_same(*world, rays, {5, true, {.1f, .2f, .3f, .2f}});
 }
 
 // Through the whole program: pixels at the edge, filters, a lens, several samples, threads.

@@ -46,7 +46,8 @@ ALHAZEN_INLINE Ints surely_misses(const alhazen::BundleBall& ball, const RayLane
     const Vector3 from{rays.o.x - ball.near_x, rays.o.y - ball.near_y, rays.o.z - ball.near_z};
     const Vector3 miss = from - rays.d * (dot(from, rays.d) * inverse_a), size = absolute(from);
     const Floats reach = ball.size + rough * (size.x + size.y + size.z);
-    return dot(miss, miss) > reach * reach * (1 + rough);
+    // Squares of what is smaller are not known so well.
+    return (reach > 0x1p-50f) & (dot(miss, miss) > reach * reach * (1 + rough));
 }
 
 /// Calls visit(ball, which lanes, t) for each ball that some of the lanes meet, not beyond their limits;
