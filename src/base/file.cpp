@@ -89,16 +89,28 @@ std::string read_file(const std::filesystem::path& path, std::size_t max_bytes) 
 
 std::filesystem::path real_path(const std::filesystem::path& path) {
     std::error_code error;
-    std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
+    // What is not there yet would stay relative.
+    const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+    if (error) return path;
+    std::filesystem::path real = std::filesystem::weakly_canonical(absolute, error);
     return error ? path : real;
+}
+
+bool is_stream(const std::filesystem::path& path) {
+    std::error_code unknown;
+    // /dev/stdout may lead to a file that others are writing to.
+    if (path.parent_path() == "/dev" && std::filesystem::is_symlink(path, unknown)) return true;
+    const auto status = std::filesystem::status(path, unknown);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+           !std::filesystem::is_directory(status);
 }
 
 void write_atomically(const std::filesystem::path& named,
                       const std::function<void(const std::filesystem::path&)>& write) {
-    // A link goes on leading to what is written.
+    if (is_stream(named)) return write(named);
     std::error_code no_link;
     const std::filesystem::path target =
-        std::filesystem::is_symlink(named, no_link) ? std::filesystem::weakly_canonical(named) : named;
+        std::filesystem::is_symlink(named, no_link) ? real_path(named) : named;
     // Same folder, same suffix (libraries choose the format by it), a name no other process takes.
     std::filesystem::path temporary = target;
     temporary.replace_filename(

@@ -19,9 +19,13 @@ std::string read_file(const std::filesystem::path& path, std::size_t max_bytes =
 /// files. As it is where that cannot be found out.
 std::filesystem::path real_path(const std::filesystem::path& path);
 
+/// Whether there is something that is written to as it is, and not replaced: a pipe, a device, /dev/stdout.
+bool is_stream(const std::filesystem::path& path);
+
 /// Calls write with a temporary path beside the target, then renames it over the target: readers see the old
-/// file or the whole new one. The temporary is removed when write throws. Throws std::runtime_error when the
-/// folder cannot be written.
+/// file or the whole new one. The temporary is removed when write throws. The target is the file of that
+/// name, or the one that a link of that name leads to; a stream is given to write itself. Throws
+/// std::runtime_error when the folder cannot be written.
 void write_atomically(const std::filesystem::path& named,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 void write_file(const std::filesystem::path& target, std::string_view bytes);

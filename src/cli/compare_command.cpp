@@ -169,7 +169,8 @@ void add_compare_command(CLI::App& app, Action& action) {
         ->add_option(
             "--integrators", options->ways,
             "which ones, an acceleration structure after a colon if wanted (path:lbvh/stack); the others are "
-            "compared with the last (default: raster,whitted,path and, for meshes, path:sdf)")
+            "compared with the last (default: raster,whitted,path and, for meshes, path:sdf; for other films "
+            "than rgb without the first two)")
         ->type_name("NAME,...")
         ->expected(1)
         ->take_all()

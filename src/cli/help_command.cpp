@@ -14,6 +14,7 @@ namespace {
 
 struct HelpOptions {
     std::string family, kind, markdown_folder;
+    std::vector<std::string> commands; ///< of the program
 };
 
 void write_markdown(const std::filesystem::path& folder) {
@@ -48,7 +49,8 @@ int run_help(const HelpOptions& options) {
     }
     if (options.family == "texture") {
         // One word to the user, two families: numbers and colours.
-        for (const char* family : {"spectrum-texture", "float-texture"}) run_help({family, options.kind, ""});
+        for (const char* family : {"spectrum-texture", "float-texture"})
+            run_help({family, options.kind, "", {}});
         return exit_ok;
     }
     std::vector<std::string> names{"texture", "spectrum"};
@@ -69,7 +71,7 @@ int run_help(const HelpOptions& options) {
         throw std::runtime_error(fmt::format("unknown {} \"{}\"{}", options.family, options.kind,
                                              did_you_mean(options.kind, kinds)));
     }
-    for (std::string_view command : {"render", "info", "convert", "diff", "accel", "compare", "sdf"})
+    for (const std::string& command : options.commands)
         if (options.family == command)
             throw std::runtime_error(
                 fmt::format("\"{0}\" is a command; alhazen {0} --help explains it", command));
@@ -86,7 +88,10 @@ void add_help_command(CLI::App& app, Action& action) {
     command->add_option("NAME", options->kind, "one of that type");
     command->add_option("--markdown", options->markdown_folder, "write the whole reference as Markdown")
         ->type_name("FOLDER");
-    command->callback([options, &action] { action = [options] { return run_help(*options); }; });
+    command->callback([options, &app, &action] {
+        for (const CLI::App* other : app.get_subcommands({})) options->commands.push_back(other->get_name());
+        action = [options] { return run_help(*options); };
+    });
 }
 
 } // namespace alhazen

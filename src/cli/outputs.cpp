@@ -8,22 +8,18 @@
 
 #include <fmt/format.h>
 
+#include "base/file.h"
 #include "image/codec.h"
 
 namespace alhazen {
 
 void check_outputs(const std::string& input, const std::vector<std::string>& files) {
     std::map<std::filesystem::path, std::string> taken;
-    std::error_code unknown;
-    auto place_of = [&](const std::string& file) {
-        auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), unknown);
-        return place.empty() ? std::filesystem::path(file) : place;
-    };
-    const std::filesystem::path read_from = place_of(input);
+    const std::filesystem::path read_from = real_path(input);
     for (const std::string& file : files) {
         if (file.empty()) continue;
         check_output_folder(file);
-        const auto place = place_of(file);
+        const auto place = real_path(file);
         if (place == read_from)
             throw std::runtime_error(
                 fmt::format("cannot write \"{}\": it is what is read; give another name", file));
@@ -35,6 +31,7 @@ void check_outputs(const std::string& input, const std::vector<std::string>& fil
 
 void check_output_folder(const std::string& file) {
     std::filesystem::path path(file);
+    if (is_stream(path)) return;
     if (std::filesystem::is_directory(path))
         throw std::runtime_error(fmt::format("cannot write \"{}\": it is a folder", file));
     std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";

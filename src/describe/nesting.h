@@ -1,6 +1,7 @@
 /// How deep and how large things are that are made of others by name: textures of textures, bodies of bodies.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <unordered_map>
 #include <variant>

@@ -39,6 +39,21 @@ double relative_squared_difference(double a, double b) {
     return squared_difference(a, b) / (b * b + 0.01);
 }
 
+bool has_nan(const Image& image) {
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const Vec3 c = image.rgb(x, y);
+            if (std::isnan(c.x) || std::isnan(c.y) || std::isnan(c.z)) return true;
+        }
+    return false;
+}
+
+// What is shown of a picture is always a number; a picture that holds what is none must not pass for another.
+MetricResult nan_for_nan(MetricResult result, const Image& a, const Image& b) {
+    if (has_nan(a) || has_nan(b)) result.value = std::nan("");
+    return result;
+}
+
 } // namespace
 
 void check_same_size(const Image& a, const Image& b) {
@@ -96,25 +111,6 @@ std::optional<Metric> parse_metric(std::string_view name) {
     if (found == names.end()) return std::nullopt;
     return static_cast<Metric>(found - names.begin());
 }
-
-namespace {
-
-bool has_nan(const Image& image) {
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) {
-            const Vec3 c = image.rgb(x, y);
-            if (std::isnan(c.x) || std::isnan(c.y) || std::isnan(c.z)) return true;
-        }
-    return false;
-}
-
-// What is shown of a picture is always a number; a picture that holds what is none must not pass for another.
-MetricResult nan_for_nan(MetricResult result, const Image& a, const Image& b) {
-    if (has_nan(a) || has_nan(b)) result.value = std::nan("");
-    return result;
-}
-
-} // namespace
 
 MetricResult compute_metric(Metric metric, const Image& a, const Image& b) {
     switch (metric) {

@@ -276,6 +276,18 @@ TEST_F(Render, LosesNoFile) {
     EXPECT_EQ(picture("real.png").size(), (Vec2i{32, 24}));
 }
 
+TEST_F(Render, PipesAreWrittenToAsTheyAre) {
+    const Outcome o = alhazen("render scene.pbrt -o a.png --quiet --stats /dev/stdout | cat");
+    EXPECT_EQ(o.err, "");
+    EXPECT_EQ(nlohmann::json::parse(o.out)["samples_per_pixel"], 4);
+    // Into a file that the shell has opened, too.
+    EXPECT_EQ(alhazen("render scene.pbrt -o a.png --quiet --stats /dev/stdout").out.substr(0, 1), "{");
+    const Outcome piped = shell("mkfifo p; cat p > read.json & " ALHAZEN_PROGRAM
+                                " render scene.pbrt -o a.png --quiet --stats p; wait; test -p p");
+    EXPECT_EQ(piped.exit_code, 0) << piped.err;
+    EXPECT_EQ(nlohmann::json::parse(file_text(path("read.json")))["samples_per_pixel"], 4);
+}
+
 TEST_F(Render, TheNameOfTheSceneIsKeptWhole) {
     std::filesystem::rename(path("scene.pbrt"), path("my.scene.v2.pbrt"));
     ASSERT_EQ(alhazen("render my.scene.v2.pbrt").exit_code, 0);

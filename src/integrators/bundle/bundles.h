@@ -18,7 +18,7 @@ struct RayBundles {
                           RayCounts& counts) const = 0;
 };
 
-/// Says what the recursion of the Whitted integrator is given.
+/// What the recursion of the Whitted integrator is given.
 struct WhittedSettings {
     int maxdepth = 5;
     bool shadows = true;

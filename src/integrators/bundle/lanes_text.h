@@ -54,23 +54,25 @@ ALHAZEN_INLINE std::uint32_t count(Ints mask) {
 }
 
 // Compilers make one instruction of such loops over arrays, not over lanes.
-template <class V, class T>
+ALHAZEN_INLINE double root(double v) {
+    return __builtin_sqrt(v);
+}
+ALHAZEN_INLINE float root(float v) {
+    return __builtin_sqrtf(v);
+}
+template <class T, class V>
 ALHAZEN_INLINE V roots(V v) {
     alignas(64) T numbers[lanes];
     __builtin_memcpy(numbers, &v, sizeof v);
-    for (T& number : numbers) number = static_cast<T>(__builtin_sqrt(number));
+    for (T& number : numbers) number = root(number);
     __builtin_memcpy(&v, numbers, sizeof v);
     return v;
 }
 ALHAZEN_INLINE Doubles square_root(Doubles v) {
-    return roots<Doubles, double>(v);
+    return roots<double>(v);
 }
 ALHAZEN_INLINE Floats square_root(Floats v) {
-    alignas(32) float numbers[lanes];
-    __builtin_memcpy(numbers, &v, sizeof v);
-    for (float& number : numbers) number = __builtin_sqrtf(number);
-    __builtin_memcpy(&v, numbers, sizeof v);
-    return v;
+    return roots<float>(v);
 }
 ALHAZEN_INLINE Floats absolute(Floats v) {
     return __builtin_bit_cast(Floats, __builtin_bit_cast(Ints, v) & 0x7fffffff);
