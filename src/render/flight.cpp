@@ -28,7 +28,7 @@ struct Flight::Sample {
     float filter_weight = 1;
     Wavelengths lambda;
     CameraSample at;
-    std::optional<CameraRay> ray;
+    std::optional<CameraRay> ray; ///< at that place, once it was asked for
 };
 
 /// A sample on its way, and the memory it lives in.
@@ -107,9 +107,10 @@ void Flight::run_bundles() {
     std::array<Spectrum, bundled> radiance;
     while (next_ < count_) {
         std::size_t taken = 0, sent = 0;
-        for (; taken < bundled && next_ < count_; ++taken) {
-            draw_next(samples[taken]);
-            if (samples[taken].ray) rays[sent++] = samples[taken].ray->ray;
+        for (; taken < bundled && next_ < count_; ++taken) draw_next(samples[taken]);
+        for (std::size_t i = 0; i < taken; ++i) {
+            samples[i].ray = world_.camera->ray(samples[i].at);
+            if (samples[i].ray) rays[sent++] = samples[i].ray->ray;
         }
         bundles_->radiance({rays.data(), sent}, {radiance.data(), sent}, counts.rays);
         sent = 0;
@@ -127,6 +128,7 @@ bool Flight::start_next(Path& path) {
         path.order = next_;
         path.arena.reset();
         const SampleStream stream = draw_next(path.sample);
+        path.sample.ray = world_.camera->ray(path.sample.at);
         path.context.emplace(*world_.scene, stream, path.sample.lambda, path.arena, counts.rays,
                              paths_.size() > 1 ? &queue_ : nullptr, path.number);
         if (!surfaces_.empty()) {
@@ -171,7 +173,6 @@ SampleStream Flight::draw_next(Sample& sample) {
         at.lens = {0.5f, 0.5f};
         at.time = 0.5f;
     }
-    sample.ray = world_.camera->ray(at);
     return stream;
 }
 

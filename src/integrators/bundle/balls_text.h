@@ -38,33 +38,52 @@ ALHAZEN_INLINE Longs is_beyond(Doubles t, Doubles a, Doubles h, Doubles c, doubl
     return c < 0 ? f < -rounding : (f > rounding) & (a * t < -h);
 }
 
-/// The relative error of what surely_misses works out, with much room: a few roundings.
-constexpr float rough = 0x1p-20f;
+/// Where rays pass, in single precision, which takes half the time.
+struct Passing {
+    Vector3 o, d;
+    Floats inverse_a, rough;
 
-/// Where rays pass the ball by, beyond doubt: in single precision, which takes half the time.
-ALHAZEN_INLINE Ints surely_misses(const alhazen::BundleBall& ball, const RayLanes& rays, Floats inverse_a) {
-    const Vector3 from{rays.o.x - ball.near_x, rays.o.y - ball.near_y, rays.o.z - ball.near_z};
-    const Vector3 miss = from - rays.d * (dot(from, rays.d) * inverse_a), size = absolute(from);
-    const Floats reach = ball.size + rough * (size.x + size.y + size.z);
-    // Squares of what is smaller are not known so well.
-    return (reach > 0x1p-50f) & (dot(miss, miss) > reach * reach * (1 + rough));
-}
+    /// Directions must be longer than 2^-63 and shorter than 2^64.
+    ALHAZEN_INLINE explicit Passing(const RayLanes& rays) : o(rays.o), d(rays.d), inverse_a(1 / inner(d, d)) {
+        const Vector3 size = absolute(o);
+        rough = alhazen::bundle_rough * (size.x + size.y + size.z);
+    }
+    /// The rays that pass a ball by, beyond doubt.
+    ALHAZEN_INLINE Ints surely_miss(const alhazen::BundleBall& ball) const {
+        const Vector3 from{o.x - ball.near_x, o.y - ball.near_y, o.z - ball.near_z};
+        const Floats s = -inner(from, d) * inverse_a;
+        const Vector3 miss{fused(d.x, s, from.x), fused(d.y, s, from.y), fused(d.z, s, from.z)};
+        const Floats reach = ball.reach + rough;
+        return inner(miss, miss) > reach * reach;
+    }
 
-/// Calls visit(ball, which lanes, t) for each ball that some of the lanes meet, not beyond their limits;
-/// visit returns the lanes that are still to be asked about, and may bring limits nearer.
+  private:
+    ALHAZEN_INLINE static Floats inner(const Vector3& a, const Vector3& b) {
+        return fused(a.x, b.x, fused(a.y, b.y, a.z * b.z));
+    }
+};
+
+/// Calls visit(ball, which lanes, t) for each of the balls (a bit each) that some of the lanes meet, not
+/// beyond their limits; visit returns the lanes that are still to be asked about, and may bring limits
+/// nearer.
 template <class Visit>
 ALHAZEN_INLINE void visit_met(const alhazen::BundleScene& scene, const RayLanes& rays, Ints asked,
-                              const Doubles& limit, const Visit& visit) {
+                              std::uint64_t balls, const Doubles& limit, const Visit& visit) {
     const Vector3d o = widen(rays.o), d = widen(rays.d);
     const Doubles a = dot(d, d), inverse_a = 1.0 / a;
-    const Floats near_inverse_a = narrow(inverse_a);
-    for (std::uint32_t i = 0; i < scene.ball_count; ++i) {
+    // All balls first, so that no branch has to be foreseen between them.
+    const Passing passing(rays);
+    std::uint64_t near = 0;
+    for (; balls; balls &= balls - 1) {
+        const int i = __builtin_ctzll(balls);
+        near |= std::uint64_t{any(asked & ~passing.surely_miss(scene.balls[i]))} << i;
+    }
+    for (; near; near &= near - 1) {
+        const auto i = static_cast<std::uint32_t>(__builtin_ctzll(near));
         const alhazen::BundleBall& ball = scene.balls[i];
-        const Ints close = asked & ~surely_misses(ball, rays, near_inverse_a);
-        if (!any(close)) continue;
         const Vector3d from{o.x - ball.x, o.y - ball.y, o.z - ball.z};
         const Doubles h = dot(from, d), c = dot(from, from) - ball.radius_squared;
-        Longs met = widen(close) & ~((c > 0) & (h >= 0));
+        Longs met = widen(asked) & ~((c > 0) & (h >= 0));
         if (!any(met)) continue;
         const Doubles s = h * inverse_a;
         const Vector3d miss = from - d * s;
@@ -88,7 +107,7 @@ ALHAZEN_INLINE Nearest find_closest(const alhazen::BundleScene& scene, const Ray
     Nearest hit{Floats{} + infinite, Ints{} - 1};
     Ints primitive{};
     Doubles limit = widen(hit.t);
-    visit_met(scene, rays, active, limit, [&](std::uint32_t i, Ints met, Floats t) {
+    visit_met(scene, rays, active, scene.all_balls, limit, [&](std::uint32_t i, Ints met, Floats t) {
         const auto number = static_cast<std::int32_t>(scene.balls[i].primitive);
         const Ints nearer =
             met & ((t < hit.t) | ((t == hit.t) & (number < primitive))) & (t > 0) & (t < infinite);
@@ -101,32 +120,33 @@ ALHAZEN_INLINE Nearest find_closest(const alhazen::BundleScene& scene, const Ray
     return hit;
 }
 
-/// Where something stands in the way before tmax.
+/// Where one of the balls (a bit each) stands in the way before tmax.
 ALHAZEN_INLINE Ints find_any(const alhazen::BundleScene& scene, const RayLanes& rays, Ints active,
-                             float tmax) {
+                             std::uint64_t balls, float tmax) {
     Ints blocked{};
     const Doubles limit = widen(next_above(Floats{} + tmax));
-    visit_met(scene, rays, active, limit, [&](std::uint32_t, Ints met, Floats t) {
+    visit_met(scene, rays, active, balls, limit, [&](std::uint32_t, Ints met, Floats t) {
         blocked |= met & (t > 0) & (t < tmax);
         return active & ~blocked;
     });
     return blocked & active;
 }
 
-/// Calls put(ball, lanes) for each ball of the active lanes, with a mask of its own lanes: once, mostly.
+/// Calls put(number, lanes) for each ball of the active lanes, with a mask of its own lanes: once, mostly.
 template <class Put>
-ALHAZEN_INLINE void for_each_ball(const alhazen::BundleScene& scene, Ints ball, Ints active, const Put& put) {
+ALHAZEN_INLINE void for_each_ball(Ints ball, Ints active, const Put& put) {
     for (std::uint32_t left = bits_of(active); left;) {
         const std::int32_t number = ball[__builtin_ctz(left)];
         const Ints same = active & (ball == number);
-        put(scene.balls[number], same);
+        put(number, same);
         left &= ~bits_of(same);
     }
 }
 
 ALHAZEN_INLINE BallLanes gather_balls(const alhazen::BundleScene& scene, Ints ball, Ints active) {
     BallLanes all{};
-    for_each_ball(scene, ball, active, [&](const alhazen::BundleBall& one, Ints where) {
+    for_each_ball(ball, active, [&](std::int32_t number, Ints where) {
+        const alhazen::BundleBall& one = scene.balls[number];
         const Longs wide = widen(where);
         all.centre.x = wide ? Doubles{} + one.x : all.centre.x;
         all.centre.y = wide ? Doubles{} + one.y : all.centre.y;

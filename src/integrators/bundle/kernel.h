@@ -13,11 +13,17 @@ constexpr std::uint32_t bundle_lanes = 8;
 /// Numbers of a Spectrum.
 constexpr std::uint32_t bundle_colors = 4;
 
+/// With more an acceleration structure is sooner done; sets of them are bits of one number.
+constexpr std::uint32_t most_bundle_balls = 64;
+/// How far off single precision finds the distance between a line and a ball's centre, relative to their
+/// coordinates: some roundings, with much room.
+constexpr float bundle_rough = 0x1p-19f;
+
 /// A ball, and its surface by Phong and Whitted.
 struct BundleBall {
     double x, y, z, radius, radius_squared;
     float near_x, near_y, near_z; ///< the centre, rounded
-    float size;              ///< not below the radius and the greatest coordinates' part in rounding errors
+    float reach; ///< how near single precision may find rays that meet it, but for their origins' part
     std::uint32_t primitive; ///< its number: of balls at the same distance the lowest is seen
     float side;              ///< 1, or -1 where its normal points inward
     float mirror, refract, eta, shininess;
@@ -29,13 +35,14 @@ struct BundleBall {
 struct BundleLight {
     float x, y, z;
     float intensity[bundle_colors];
-    bool fades; ///< with the square of the distance
+    bool fades;                    ///< with the square of the distance
+    const std::uint64_t* blockers; ///< for each ball: which ones may hide this light from its surface
 };
 
 /// All there is.
 struct BundleScene {
     const BundleBall* balls; ///< by their size, so that large ones behind small ones need no closer look
-    std::uint32_t ball_count;
+    std::uint64_t all_balls; ///< a bit each
     const BundleLight* lights;
     std::uint32_t light_count;
     int maxdepth;

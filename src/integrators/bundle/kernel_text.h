@@ -12,6 +12,8 @@ constexpr int colors = alhazen::bundle_colors;
 // See shadow_epsilon.
 constexpr float shadow_end = 1 - 1e-4f;
 constexpr float least_distance_squared = 0x1p-126f;
+// exp(-104) rounds to 0.
+constexpr float smallest_exponent = 105;
 
 /// The material in each lane.
 struct PhongLanes {
@@ -25,7 +27,8 @@ ALHAZEN_INLINE void put(Floats& to, Ints where, float value) {
 
 ALHAZEN_INLINE PhongLanes gather_materials(const alhazen::BundleScene& scene, Ints ball, Ints active) {
     PhongLanes all{};
-    for_each_ball(scene, ball, active, [&](const alhazen::BundleBall& one, Ints where) {
+    for_each_ball(ball, active, [&](std::int32_t number, Ints where) {
+        const alhazen::BundleBall& one = scene.balls[number];
         put(all.mirror, where, one.mirror);
         put(all.refract, where, one.refract);
         put(all.eta, where, one.eta);
@@ -95,7 +98,9 @@ ALHAZEN_INLINE Color local_light(const PhongLanes& k, const Vector3& wo, const V
         is_shiny |= k.specular.c[c] != 0;
     }
     const Floats r_dot_v = -wi.x * wo.x + -wi.y * wo.y + wi.z * wo.z;
-    const Ints has_highlight = is_lit & is_shiny & (r_dot_v > 0);
+    // Beyond the last one, cos^n <= exp(-n (1 - cos)) is 0.
+    const Ints has_highlight =
+        is_lit & is_shiny & (r_dot_v > 0) & (k.shininess * (1.0f - r_dot_v) < smallest_exponent);
     if (any(has_highlight)) {
         const Floats lobe = raised(has_highlight ? r_dot_v : Floats{} + 1.0f, k.shininess);
         for (int c = 0; c < colors; ++c) f.c[c] = has_highlight ? f.c[c] + k.specular.c[c] * lobe : f.c[c];
@@ -121,7 +126,7 @@ class Tracer {
         const SurfaceLanes at = surface_of(scene_, rays, hit, active);
         const PhongLanes k = gather_materials(scene_, hit.ball, active);
         const Vector3 n = select(dot(at.n, at.wo) < 0, -at.n, at.n);
-        Color sum = compute_lighting(at, k, active);
+        Color sum = compute_lighting(at, k, hit.ball, active);
         for (Floats& c : sum.c) c = (1.0f - k.mirror) * c;
         if (const Ints mirrors = active & (k.mirror != 0); any(mirrors)) {
             const Vector3 d = reflect_ray(rays.d, n);
@@ -141,7 +146,15 @@ class Tracer {
         for (int c = 0; c < colors; ++c) sum.c[c] = where ? sum.c[c] + factor * seen.c[c] : sum.c[c];
     }
 
-    ALHAZEN_INLINE Color compute_lighting(const SurfaceLanes& at, const PhongLanes& k, Ints active) {
+    // What may stand between a light and the balls in the active lanes.
+    ALHAZEN_INLINE std::uint64_t blockers(const alhazen::BundleLight& light, Ints ball, Ints active) const {
+        std::uint64_t all = 0;
+        for_each_ball(ball, active, [&](std::int32_t number, Ints) { all |= light.blockers[number]; });
+        return all;
+    }
+
+    ALHAZEN_INLINE Color compute_lighting(const SurfaceLanes& at, const PhongLanes& k, Ints ball,
+                                          Ints active) {
         const FrameLanes frame(at.n);
         const Vector3 wo = frame.to_local(at.wo);
         Color sum = k.ambient;
@@ -158,7 +171,7 @@ class Tracer {
             if (scene_.shadows) {
                 counts_.shadow += count(is_lit);
                 const Vector3 o = offset_origin(at, to_light);
-                is_lit &= ~find_any(scene_, {o, q - o}, is_lit, shadow_end);
+                is_lit &= ~find_any(scene_, {o, q - o}, is_lit, blockers(light, ball, is_lit), shadow_end);
             }
             for (int c = 0; c < colors; ++c) {
                 const Floats L =

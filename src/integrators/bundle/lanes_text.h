@@ -80,6 +80,14 @@ ALHAZEN_INLINE Floats absolute(Floats v) {
 ALHAZEN_INLINE Doubles absolute(Doubles v) {
     return __builtin_bit_cast(Doubles, __builtin_bit_cast(Longs, v) & 0x7fffffffffffffffLL);
 }
+/// a b + c, rounded once or twice: for what is known roughly only.
+ALHAZEN_INLINE Floats fused(Floats a, Floats b, Floats c) {
+#if defined(__FMA__)
+    return __builtin_ia32_vfmaddps256(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
 // v's size with s's sign.
 ALHAZEN_INLINE Floats with_sign(Floats v, Floats s) {
     constexpr int sign = static_cast<int>(0x80000000u);

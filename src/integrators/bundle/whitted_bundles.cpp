@@ -9,9 +9,6 @@ namespace alhazen {
 
 namespace {
 
-// With more balls an acceleration structure is sooner done.
-constexpr std::size_t most_balls = 64;
-
 std::vector<const BundleKernel*> supported_kernels() {
     std::vector<const BundleKernel*> supported;
     for (const BundleKernel* k : {bundle_kernel_avx512(), bundle_kernel_avx2(), bundle_kernel_plain()})
@@ -50,8 +47,10 @@ std::optional<BundleBall> find_ball(const Object& object, std::uint32_t shape, S
     made.near_x = centre.x;
     made.near_y = centre.y;
     made.near_z = centre.z;
-    made.size = static_cast<float>(ball->radius) * (1 + 0x1p-20f) +
-                0x1p-20f * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
+    // Squares of what is smaller are not known so well.
+    made.reach =
+        std::max(0x1p-50f, static_cast<float>(ball->radius) * (1 + bundle_rough) +
+                               bundle_rough * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)));
     made.primitive = primitive;
     made.side = ball->is_turned ? -1.0f : 1.0f;
     // Phong's are grey.
@@ -65,15 +64,45 @@ std::optional<BundleBall> find_ball(const Object& object, std::uint32_t shape, S
     return made;
 }
 
+Vec3d centre_of(const BundleBall& ball) {
+    return {ball.x, ball.y, ball.z};
+}
+
+// How near p comes to what lies between a ball and a point: to one of the balls that shrink on the way from
+// one to the other. That is a convex function of the way.
+double distance_to_cone(Vec3d p, const BundleBall& ball, Vec3d tip) {
+    auto distance = [&](double s) {
+        return length(centre_of(ball) + (tip - centre_of(ball)) * s - p) - (1 - s) * ball.radius;
+    };
+    double lo = 0, hi = 1;
+    for (int i = 0; i < 60; ++i) {
+        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+    }
+    return std::min({distance(lo), distance(0), distance(1)});
+}
+
+// Not where the other keeps out of the way from the ball's surface to the light, and not where it has both
+// inside.
+bool may_hide(const BundleBall& other, const BundleBall& ball, Vec3d light) {
+    const Vec3d between = centre_of(other) - centre_of(ball), beyond = centre_of(other) - light;
+    const double room = 1e-5 * (length(centre_of(other)) + length(centre_of(ball)) + length(light) +
+                                other.radius + ball.radius);
+    if (std::max(length(between) + ball.radius, length(beyond)) < other.radius - room) return false;
+    return distance_to_cone(centre_of(other), ball, light) < other.radius + room;
+}
+
 class WhittedBundles final : public RayBundles {
   public:
     WhittedBundles(std::vector<BundleBall> balls, std::vector<BundleLight> lights,
                    const WhittedSettings& settings, const BundleKernel& kernel)
         : balls_(std::move(balls)), lights_(std::move(lights)),
-          scene_{balls_.data(),     static_cast<std::uint32_t>(balls_.size()),
+          scene_{balls_.data(),     all_of(balls_.size()),
                  lights_.data(),    static_cast<std::uint32_t>(lights_.size()),
                  settings.maxdepth, settings.shadows},
-          kernel_(kernel) {}
+          kernel_(kernel) {
+        find_blockers();
+    }
     WhittedBundles(const WhittedBundles&) = delete;
     WhittedBundles& operator=(const WhittedBundles&) = delete;
 
@@ -89,6 +118,24 @@ class WhittedBundles final : public RayBundles {
     }
 
   private:
+    static std::uint64_t all_of(std::size_t count) {
+        return count < most_bundle_balls ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+    }
+
+    void find_blockers() {
+        blockers_.resize(lights_.size() * balls_.size());
+        std::uint64_t* next = blockers_.data();
+        for (BundleLight& light : lights_) {
+            light.blockers = next;
+            for (const BundleBall& ball : balls_) {
+                for (std::size_t i = 0; i < balls_.size(); ++i)
+                    if (may_hide(balls_[i], ball, Vec3d(Vec3(light.x, light.y, light.z))))
+                        *next |= std::uint64_t{1} << i;
+                ++next;
+            }
+        }
+    }
+
     void trace(std::span<const Ray> rays, std::span<Spectrum> radiance, BundleCounts& counts) const {
         BundleRays bundle{};
         bundle.count = static_cast<std::uint32_t>(rays.size());
@@ -105,6 +152,7 @@ class WhittedBundles final : public RayBundles {
 
     std::vector<BundleBall> balls_;
     std::vector<BundleLight> lights_;
+    std::vector<std::uint64_t> blockers_; ///< for each light, for each ball
     BundleScene scene_;
     const BundleKernel& kernel_;
 };
@@ -125,7 +173,7 @@ std::unique_ptr<RayBundles> whitted_bundles(const Scene& scene, const WhittedSet
                                             std::string_view kernel) {
     const Object& root = scene.root();
     if (scene.moves() || scene.approximation() || root.structure_is_chosen() || !root.instances().empty() ||
-        root.shapes().size() > most_balls)
+        root.shapes().size() > most_bundle_balls)
         return nullptr;
     std::vector<BundleBall> balls;
     for (std::uint32_t i = 0; i < root.shapes().size(); ++i) {
@@ -141,7 +189,7 @@ std::unique_ptr<RayBundles> whitted_bundles(const Scene& scene, const WhittedSet
         if (!point) return nullptr;
         if (point->intensity.is_black()) continue;
         BundleLight& made = lights.emplace_back();
-        made = {point->p.x, point->p.y, point->p.z, {}, point->fades};
+        made = {point->p.x, point->p.y, point->p.z, {}, point->fades, nullptr};
         store(made.intensity, point->intensity);
     }
     for (const BundleKernel* k : supported_kernels())
