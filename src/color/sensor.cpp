@@ -53,9 +53,7 @@ std::optional<Sensor> Sensor::find(const SensorSettings& settings, const RgbColo
     return sensor;
 }
 
-Vec3 Sensor::to_sensor_rgb(Spectrum radiance, const Wavelengths& wavelengths) const {
-    if (wavelengths.mode == ColorMode::rgb)
-        return Vec3(radiance[0], radiance[1], radiance[2]) * imaging_ratio_;
+Vec3 Sensor::measure_spectrum(Spectrum radiance, const Wavelengths& wavelengths) const {
     Spectrum weighted = safe_divide(radiance, wavelengths.pdf);
     ObserverSample curves =
         camera_ ? camera_->sample(wavelengths.lambda) : sample_observer(wavelengths.lambda);

@@ -44,12 +44,18 @@ class Sensor {
 
     /// The sample's channels; their expectation over the wavelengths is the pixel's. Terminated lanes count
     /// not.
-    Vec3 to_sensor_rgb(Spectrum radiance, const Wavelengths& wavelengths) const;
+    Vec3 to_sensor_rgb(Spectrum radiance, const Wavelengths& wavelengths) const {
+        if (wavelengths.mode == ColorMode::rgb)
+            return Vec3(radiance[0], radiance[1], radiance[2]) * imaging_ratio_;
+        return measure_spectrum(radiance, wavelengths);
+    }
     /// Channels to linear RGB of a space, white balance included.
     Matrix3 output_from_sensor(const RgbColorSpace& output, ColorMode mode) const;
     float imaging_ratio() const { return imaging_ratio_; }
 
   private:
+    Vec3 measure_spectrum(Spectrum radiance, const Wavelengths& wavelengths) const;
+
     float imaging_ratio_ = 1;
     const CameraCurves* camera_ = nullptr; ///< none: the CIE observer
     Matrix3 white_balance_;                ///< XYZ to XYZ

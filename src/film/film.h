@@ -1,6 +1,7 @@
 /// Films: pixels from samples.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "base/bounds.h"
@@ -11,6 +12,13 @@
 #include "image/image.h"
 
 namespace alhazen {
+
+/// Samples of a pixel that all show the same.
+struct EvenSamples {
+    Vec2i pixel;
+    int count = 1;
+    Spectrum L; ///< finite, in linear RGB
+};
 
 /// A film's parameters and its pixels. A pixel's samples must be added in sample order by one thread at a
 /// time; different pixels may be added to from different threads.
@@ -35,6 +43,12 @@ struct Film {
     /// samples there could be (FilterSample); the pixel is the filtered L, and L itself where all samples
     /// agree.
     virtual void add(Vec2i pixel, Spectrum L, const Wavelengths& lambda, float weight) = 0;
+
+    /// Adds such samples, whose weights are 1, in their order.
+    virtual void add_even(std::span<const EvenSamples> all) {
+        for (const EvenSamples& samples : all)
+            for (int i = 0; i < samples.count; ++i) add(samples.pixel, samples.L, Wavelengths::rgb(), 1);
+    }
 
     /// Whether add_surface() does something; the film is then for integrators that follow camera rays one by
     /// one only.

@@ -139,6 +139,8 @@ class PictureFilm : public Film {
         const float largest = max_component(rgb);
         return largest > limit_ ? rgb * (limit_ / largest) : rgb;
     }
+    /// Has a pixel's sums brought near, as they are going to be added to.
+    void fetch(Vec2i pixel) const { __builtin_prefetch(sums_.data() + index(pixel), 1); }
     Vec3 output_color(Vec3 measured) const { return Vec3(output_from_sensor_ * Vec3d(measured)); }
     /// Of a pixel, in the rendered part's rows.
     std::size_t index(Vec2i p) const {

@@ -6,6 +6,7 @@
 ///
 /// A camera with a lens, or one that sees all around, has no projection that keeps lines straight; then rays
 /// find the surfaces, and the shading is the same.
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 
@@ -36,15 +37,16 @@ class RasterWork final : public PictureWork {
         std::mutex mutex;
         PictureCounts counts;
         Rasterizer(picture_.scene, picture_.camera, picture_.samples).run(pixels, [&](const DrawnTile& tile) {
-            shading_.shade(tile, [&](std::span<const TileShading::Shaded> shaded) {
-                for (const auto& [pixel, samples, L] : shaded) {
-                    if (!L.is_finite()) {
-                        std::scoped_lock lock(mutex);
-                        counts.add_bad(pixel, 0);
-                        continue;
-                    }
-                    for (int i = 0; i < samples; ++i) picture_.film.add(pixel, L, Wavelengths::rgb(), 1);
-                }
+            shading_.shade(tile, [&](std::span<const EvenSamples> shaded) {
+                auto is_finite = [](const EvenSamples& s) { return s.L.is_finite(); };
+                if (std::all_of(shaded.begin(), shaded.end(), is_finite))
+                    return picture_.film.add_even(shaded);
+                std::scoped_lock lock(mutex);
+                for (const EvenSamples& s : shaded)
+                    if (is_finite(s))
+                        picture_.film.add_even({&s, 1});
+                    else
+                        counts.add_bad(s.pixel, 0);
             });
             const Rect2i part = tile.pixels();
             const int count = part.width() * part.height();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cameras/projection.h"
+#include "raster/kernel.h"
 
 namespace alhazen {
 
@@ -21,6 +22,15 @@ class FilmRays {
 
     /// How many directions away from the origin a surface is that is so near (see DrawnTile::nearness).
     float steps(float nearness) const { return is_perspective_ ? 1 / nearness : -nearness; }
+
+    /// For RasterKernel::place.
+    RasterRays numbers() const {
+        return {{start_.x, start_.y, start_.z},
+                {ahead_.x, ahead_.y, ahead_.z},
+                {across_.x, across_.y, across_.z},
+                {down_.x, down_.y, down_.z},
+                is_perspective_};
+    }
 
   private:
     bool is_perspective_;

@@ -100,6 +100,32 @@ struct RasterPart {
     bool single_sample;          ///< one sample a pixel, in the middle; or several, which may be anywhere
 };
 
+/// The rays through the film's places: see FilmRays.
+struct RasterRays {
+    float start[3], ahead[3], across[3], down[3];
+    bool is_perspective;
+};
+
+/// Matte points waiting to be lit together.
+struct alignas(64) RasterPoints {
+    static constexpr std::uint32_t capacity = 256, lanes = 16;
+    using Array = float[capacity];
+
+    std::uint32_t count = 0;            ///< arrays must hold numbers up to the next multiple of lanes
+    alignas(64) Array film_x, film_y;   ///< where they are on the film
+    alignas(64) Array nearness;         ///< and how near
+    alignas(64) Array px, py, pz;       ///< where they are
+    alignas(64) Array nx, ny, nz;       ///< shading normals towards the eye
+    alignas(64) Array gx, gy, gz;       ///< geometric normals
+    alignas(64) Array red, green, blue; ///< the BSDF; after lighting, the light sent to the eye
+};
+
+/// A light by its numbers: see LocalLight.
+struct RasterLight {
+    float p[3], normal[3], area;
+    bool is_distant, is_flat, is_two_sided;
+};
+
 struct RasterKernel {
     const char* name;
     bool (*is_supported)();
@@ -112,6 +138,11 @@ struct RasterKernel {
     /// count, its draw is left open; there must be room for all, and one more.
     std::size_t (*cull)(const RasterPart&, const RasterCorner* corners, const std::uint8_t* sides,
                         const std::uint16_t* numbers, std::size_t count, RasterTriangle* kept);
+    /// Takes points from the film to where they are, and turns their normals to the eye.
+    void (*place)(const RasterRays&, RasterPoints&);
+    /// What of a light arrives at each point, times the cosine and before its colour; there must be room for
+    /// RasterPoints::capacity, 64-byte aligned.
+    void (*light)(const RasterLight&, const RasterPoints&, float* part);
 };
 
 /// One a file; nullptr where the compiler knows no such instructions.

@@ -7,6 +7,7 @@
 
 #include "raster/cull_text.h"
 #include "raster/kernel_text.h"
+#include "raster/points_text.h"
 #include "raster/project_text.h"
 
 const alhazen::RasterKernel* alhazen::raster_kernel_avx512() {
@@ -17,7 +18,11 @@ const alhazen::RasterKernel* alhazen::raster_kernel_avx512() {
                                                     __builtin_cpu_supports("avx512dq") &&
                                                     __builtin_cpu_supports("avx512bw");
                                          },
-                                         &draw_batch, &project_points, &cull_triangles};
+                                         &draw_batch,
+                                         &project_points,
+                                         &cull_triangles,
+                                         &place_points,
+                                         &light_points};
     return &kernel;
 }
 

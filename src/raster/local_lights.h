@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "raster/kernel.h"
 #include "raster/spherical_harmonics.h"
 #include "scene/scene.h"
 
@@ -47,13 +48,16 @@ class LocalLight {
     };
     Cone cone() const;
     /// What at() computes with, for many points at a time; not for lights that are asked.
-    struct Numbers {
-        Vec3 p, normal; ///< normal: of distant lights, towards them
-        float area = 0;
-        bool is_flat = false, is_two_sided = false;
-        Spectrum radiance = 0; ///< of distant lights, irradiance
-    };
-    Numbers numbers() const { return {p_, normal_, area_, kind_ == Kind::flat, is_two_sided_, radiance_}; }
+    RasterLight numbers() const {
+        return {{p_.x, p_.y, p_.z},
+                {normal_.x, normal_.y, normal_.z},
+                area_,
+                kind_ == Kind::distant,
+                kind_ == Kind::flat,
+                is_two_sided_};
+    }
+    /// Of distant lights, irradiance; not of lights that are asked.
+    Spectrum radiance() const { return radiance_; }
     /// What glows; nullptr for lights without size.
     const PlacedShape* shape() const { return shape_; }
 

@@ -1,5 +1,4 @@
-/// Matte points lit many at a time: loops over arrays of numbers, which compilers turn into vector
-/// instructions.
+/// Matte points lit many at a time.
 #include "raster/shading.h"
 
 namespace alhazen {
@@ -9,8 +8,8 @@ namespace {
 /// The light that arrives at the points of a batch, times the cosines.
 class MatteLighting {
   public:
-    MatteLighting(MatteBatch& batch, const LightVisibility* visibility)
-        : batch_(batch), visibility_(visibility) {}
+    MatteLighting(RasterPoints& batch, const LightVisibility* visibility, const RasterKernel& kernel)
+        : batch_(batch), visibility_(visibility), kernel_(kernel) {}
 
     void add_everywhere(Spectrum irradiance) {
         part_.fill(1);
@@ -21,16 +20,13 @@ class MatteLighting {
     }
     void add_light(const LocalLight& light, std::size_t number) {
         if (light.kind() == LocalLight::Kind::asked) return add_asked(light, number);
-        const LocalLight::Numbers numbers = light.numbers();
+        kernel_.light(light.numbers(), batch_, part_.data());
         const bool is_distant = light.kind() == LocalLight::Kind::distant;
-        if (is_distant)
-            distant(numbers.normal);
-        else
-            near(numbers);
         for (std::size_t i = 0; visibility_ && i < batch_.count; ++i)
             if (part_[i] > 0)
-                part_[i] *= lit(i, number, is_distant ? numbers.normal : normalize(numbers.p - point(i)));
-        add_part(numbers.radiance);
+                part_[i] *=
+                    lit(i, number, is_distant ? light.direction() : normalize(light.position() - point(i)));
+        add_part(light.radiance());
     }
     /// Turns the batch's BSDFs into light sent to the eye.
     void finish() {
@@ -57,27 +53,6 @@ class MatteLighting {
         }
     }
 
-    // See LocalLight::at.
-    void near(const LocalLight::Numbers& light) {
-        for (std::size_t i = 0; i < batch_.count; ++i) {
-            const float dx = light.p.x - batch_.px[i], dy = light.p.y - batch_.py[i],
-                        dz = light.p.z - batch_.pz[i];
-            const float d2 = dx * dx + dy * dy + dz * dz;
-            const float received = dx * batch_.nx[i] + dy * batch_.ny[i] + dz * batch_.nz[i];
-            const float along = -(dx * light.normal.x + dy * light.normal.y + dz * light.normal.z);
-            const float inverse = 1 / std::sqrt(d2);
-            // A round light sends the same to all sides; of a flat one's back nothing comes.
-            const float sent =
-                light.is_flat ? (light.is_two_sided ? std::abs(along) : along) * inverse : 1.0f;
-            const float value = received * inverse * sent * light.area / (d2 + light.area * inv_pi);
-            part_[i] = received > 0 && sent > 0 ? value : 0.0f;
-        }
-    }
-    void distant(Vec3 wi) {
-        for (std::size_t i = 0; i < batch_.count; ++i)
-            part_[i] = std::max(0.0f, wi.x * batch_.nx[i] + wi.y * batch_.ny[i] + wi.z * batch_.nz[i]);
-    }
-
     void add(std::size_t i, Spectrum irradiance) {
         red_[i] += irradiance[0];
         green_[i] += irradiance[1];
@@ -92,16 +67,17 @@ class MatteLighting {
         }
     }
 
-    MatteBatch& batch_;
+    RasterPoints& batch_;
     const LightVisibility* visibility_;
-    alignas(64) MatteBatch::Array part_; ///< of one light, before its colour
-    alignas(64) MatteBatch::Array red_{}, green_{}, blue_{};
+    const RasterKernel& kernel_;
+    alignas(64) std::array<float, RasterPoints::capacity> part_; ///< of one light, before its colour
+    alignas(64) std::array<float, RasterPoints::capacity> red_{}, green_{}, blue_{};
 };
 
 } // namespace
 
-void LocalShading::light(MatteBatch& batch) const {
-    MatteLighting lighting(batch, visibility_);
+void LocalShading::light(RasterPoints& batch) const {
+    MatteLighting lighting(batch, visibility_, kernel_);
     lighting.add_everywhere(options_.ambient * pi);
     if (!lights_.surroundings.is_black()) lighting.add_surroundings(lights_.surroundings);
     for (std::size_t i = 0; i < lights_.lights.size(); ++i) lighting.add_light(lights_.lights[i], i);

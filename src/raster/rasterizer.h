@@ -30,6 +30,19 @@ class DrawnTile {
     }
     /// How near it is: 1 / depth for perspective projections, -depth for others.
     float nearness(Vec2i pixel, std::uint32_t sample) const { return target_.nearness[place(pixel, sample)]; }
+    /// The same of a pixel and those right of it in its block, sample by sample: of sample s of the i-th at
+    /// at(i, s).
+    struct Row {
+        const std::uint32_t* numbers;
+        const float* nearness;
+        static std::size_t at(int i, std::uint32_t sample) {
+            return static_cast<std::size_t>(i) + std::size_t{sample} * raster_block_pixels;
+        }
+    };
+    Row row(Vec2i pixel) const {
+        const std::size_t first = place(pixel, 0);
+        return {target_.fragment + first, target_.nearness + first};
+    }
     /// Of a number that is not nothing.
     Fragment fragment(std::uint32_t number) const;
     /// Where in each pixel a sample is, 0 ... 1.

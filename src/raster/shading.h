@@ -1,6 +1,7 @@
 /// Local illumination: what a point sends to the eye of the light that comes to it straight from the lights.
 #pragma once
 
+#include "raster/dispatch.h"
 #include "raster/local_lights.h"
 
 namespace alhazen {
@@ -19,18 +20,6 @@ struct ShadingOptions {
     Spectrum ambient = 0.1f; ///< light that comes from everywhere
 };
 
-/// Matte points waiting to be lit together; arrays of numbers, so that the compiler takes several at a time.
-struct MatteBatch {
-    static constexpr std::size_t capacity = 256;
-    using Array = std::array<float, capacity>;
-
-    std::size_t count = 0;
-    Array px, py, pz;       ///< points
-    Array nx, ny, nz;       ///< shading normals towards the eye
-    Array gx, gy, gz;       ///< geometric normals
-    Array red, green, blue; ///< the BSDF; after lighting, the light sent to the eye
-};
-
 class LocalShading {
   public:
     /// visibility: nullptr for no shadows. What is given must outlive this.
@@ -42,7 +31,7 @@ class LocalShading {
     /// as matte surfaces see them, for what mirrors and glass show. bsdf is the hit's material's.
     Spectrum radiance(const Hit& hit, const Bsdf& bsdf) const;
     /// The same for matte points, without what they emit.
-    void light(MatteBatch& batch) const;
+    void light(RasterPoints& points) const;
 
   private:
     Spectrum from_lights(const Hit& hit, const Bsdf& bsdf, Vec3 wo, const Frame& frame) const;
@@ -53,6 +42,7 @@ class LocalShading {
     const LocalLights& lights_;
     ShadingOptions options_;
     const LightVisibility* visibility_;
+    const RasterKernel& kernel_ = *supported_raster_kernels().front();
 };
 
 } // namespace alhazen

@@ -12,8 +12,8 @@ namespace {
 struct Seen {
     std::uint32_t number = DrawnTile::nothing;
     int samples = 0;
-    Vec2 sum;             ///< of its samples' places
-    float nearness = 0;   ///< the sum of its samples'
+    Vec2 place;           ///< the mean of its samples', in the pixel
+    float nearness = 0;   ///< the mean of its samples'
     std::uint32_t sample; ///< one of them
 };
 
@@ -45,7 +45,8 @@ class TileShading::Shader {
     Shader(const TileShading& owner, const DrawnTile& tile, const Take& take)
         : camera_(owner.camera_), rays_(owner.rays_), lights_(owner.lights_), shading_(owner.shading_),
           cone_(owner.cone_), tile_(tile), take_(take) {
-        for (std::uint32_t s = 0; s < tile_.samples(); ++s) sum_of_places_ += tile_.sample_place(s);
+        for (std::uint32_t s = 0; s < samples_; ++s) mean_place_ += tile_.sample_place(s);
+        mean_place_ *= share_;
     }
 
     void shade() {
@@ -62,19 +63,20 @@ class TileShading::Shader {
     static int next_block(int x) { return (x / raster_block + 1) * raster_block; }
 
     void shade(const Rect2i& pixels) {
-        for (int y = pixels.lo.y; y < pixels.hi.y; ++y)
-            for (int x = pixels.lo.x; x < pixels.hi.x; ++x) shade_pixel({x, y});
+        for (int y = pixels.lo.y; y < pixels.hi.y; ++y) {
+            const DrawnTile::Row row = tile_.row({pixels.lo.x, y});
+            for (int x = pixels.lo.x; x < pixels.hi.x; ++x) shade_pixel({x, y}, row, x - pixels.lo.x);
+        }
     }
 
-    void shade_pixel(Vec2i pixel) {
-        const std::uint32_t number = tile_.number(pixel, 0);
-        const std::uint32_t samples = tile_.samples();
-        float nearness = tile_.nearness(pixel, 0);
+    void shade_pixel(Vec2i pixel, const DrawnTile::Row& row, int i) {
+        const std::uint32_t number = row.numbers[i];
+        float nearness = row.nearness[i];
         std::uint32_t same = 1;
-        for (; same < samples && tile_.number(pixel, same) == number; ++same)
-            nearness += tile_.nearness(pixel, same);
-        if (same == samples)
-            shade({number, static_cast<int>(samples), sum_of_places_, nearness, 0}, pixel);
+        for (; same < samples_ && row.numbers[row.at(i, same)] == number; ++same)
+            nearness += row.nearness[row.at(i, same)];
+        if (same == samples_)
+            shade({number, static_cast<int>(samples_), mean_place_, nearness * share_, 0}, pixel);
         else
             shade_several(pixel);
     }
@@ -88,16 +90,20 @@ class TileShading::Shader {
             while (i < count && seen[i].number != number) ++i;
             if (i == count) seen[count++] = {number, 0, {}, 0, s};
             ++seen[i].samples;
-            seen[i].sum += tile_.sample_place(s);
+            seen[i].place += tile_.sample_place(s);
             seen[i].nearness += tile_.nearness(pixel, s);
         }
-        for (std::size_t i = 0; i < count; ++i) shade(seen[i], pixel);
+        for (std::size_t i = 0; i < count; ++i) {
+            const float share = 1 / static_cast<float>(seen[i].samples);
+            seen[i].place = seen[i].place * share;
+            seen[i].nearness *= share;
+            shade(seen[i], pixel);
+        }
     }
 
     void shade(const Seen& seen, Vec2i pixel) {
         const Vec2 corner{static_cast<float>(pixel.x), static_cast<float>(pixel.y)};
-        const float share = 1 / static_cast<float>(seen.samples);
-        const Vec2 middle = corner + seen.sum * share;
+        const Vec2 middle = corner + seen.place;
         if (seen.number == DrawnTile::nothing) {
             const Spectrum L =
                 lights_.infinite.empty()
@@ -107,12 +113,12 @@ class TileShading::Shader {
         }
         const Flat& flat = flats_[seen.number % flats_.size()];
         if (flat.number == seen.number)
-            return add_matte(pixel, seen.samples, {middle, seen.nearness * share}, {flat.normal, flat.normal},
+            return add_matte(pixel, seen.samples, {middle, seen.nearness}, {flat.normal, flat.normal},
                              flat.matte);
         if (seen.number != cached_) look_at(seen.number, middle);
         // The middle of the samples is within every triangle that has them all, and as near as they are on
         // average; of other shapes one sample is taken.
-        const Spot spot = triangle_mesh_ ? Spot{middle, seen.nearness * share}
+        const Spot spot = triangle_mesh_ ? Spot{middle, seen.nearness}
                                          : Spot{corner + tile_.sample_place(seen.sample),
                                                 tile_.nearness(pixel, seen.sample)};
         if (is_uniform_matte_) return add_uniform_matte(pixel, seen.samples, spot);
@@ -200,9 +206,9 @@ class TileShading::Shader {
     void add_matte(Vec2i pixel, int samples, const Spot& spot, const TriangleCache::Normals& normals,
                    Spectrum matte) {
         const std::size_t i = batch_.count++;
-        spots_.x[i] = spot.film.x;
-        spots_.y[i] = spot.film.y;
-        spots_.nearness[i] = spot.nearness;
+        batch_.film_x[i] = spot.film.x;
+        batch_.film_y[i] = spot.film.y;
+        batch_.nearness[i] = spot.nearness;
         batch_.nx[i] = normals.ns.x;
         batch_.ny[i] = normals.ns.y;
         batch_.nz[i] = normals.ns.z;
@@ -213,28 +219,15 @@ class TileShading::Shader {
         batch_.green[i] = matte[1];
         batch_.blue[i] = matte[2];
         waiting_[i] = {pixel, samples};
-        if (batch_.count == MatteBatch::capacity) light_batch();
-    }
-
-    // From the places on the film to those in the scene; normals are turned to the eye.
-    void place_batch() {
-        for (std::size_t i = 0; i < batch_.count; ++i) {
-            const Vec2 film{spots_.x[i], spots_.y[i]};
-            const Vec3 d = rays_.direction(film);
-            const Vec3 p = rays_.origin(film) + d * rays_.steps(spots_.nearness[i]);
-            batch_.px[i] = p.x;
-            batch_.py[i] = p.y;
-            batch_.pz[i] = p.z;
-            const float turn =
-                batch_.nx[i] * d.x + batch_.ny[i] * d.y + batch_.nz[i] * d.z > 0 ? -1.0f : 1.0f;
-            batch_.nx[i] *= turn;
-            batch_.ny[i] *= turn;
-            batch_.nz[i] *= turn;
-        }
+        if (batch_.count == RasterPoints::capacity) light_batch();
     }
 
     void light_batch() {
-        place_batch();
+        for (std::uint32_t i = batch_.count; i % RasterPoints::lanes; ++i) {
+            batch_.film_x[i] = batch_.film_y[i] = batch_.nx[i] = batch_.ny[i] = batch_.nz[i] = 0;
+            batch_.nearness[i] = 1;
+        }
+        kernel_.place(numbers_, batch_);
         shading_.light(batch_);
         for (std::size_t i = 0; i < batch_.count; ++i) {
             const float r = batch_.red[i], g = batch_.green[i], b = batch_.blue[i];
@@ -243,7 +236,7 @@ class TileShading::Shader {
         batch_.count = 0;
     }
 
-    void take(const Shaded& shaded) {
+    void take(const EvenSamples& shaded) {
         shaded_[shaded_count_++] = shaded;
         if (shaded_count_ == shaded_.size()) hand_over();
     }
@@ -254,12 +247,16 @@ class TileShading::Shader {
 
     const Camera& camera_;
     const FilmRays& rays_;
+    const RasterRays numbers_ = rays_.numbers();
     const LocalLights& lights_;
     const LocalShading& shading_;
     const PixelCone* cone_;
     const DrawnTile& tile_;
     const Take& take_;
-    Vec2 sum_of_places_; ///< of a pixel's samples
+    const RasterKernel& kernel_ = *supported_raster_kernels().front();
+    const std::uint32_t samples_ = tile_.samples(); ///< a pixel
+    const float share_ = 1 / static_cast<float>(samples_);
+    Vec2 mean_place_; ///< of a pixel's samples
 
     std::uint32_t cached_ = DrawnTile::nothing; ///< the fragment that these belong to
     const PlacedSurface* surface_ = nullptr;
@@ -282,12 +279,9 @@ class TileShading::Shader {
         Vec2i pixel;
         int samples;
     };
-    std::array<Waiting, MatteBatch::capacity> waiting_;
-    struct {
-        MatteBatch::Array x, y, nearness;
-    } spots_; ///< where the batch's points are on the film
-    alignas(64) MatteBatch batch_;
-    std::array<Shaded, 256> shaded_;
+    std::array<Waiting, RasterPoints::capacity> waiting_;
+    RasterPoints batch_;
+    std::array<EvenSamples, 256> shaded_;
     std::size_t shaded_count_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 
+#include "film/film.h"
 #include "raster/film_rays.h"
 #include "raster/rasterizer.h"
 #include "raster/shading.h"
@@ -18,14 +19,8 @@ class TileShading {
                 const PixelCone* cone)
         : camera_(camera), rays_(*camera.projection()), lights_(lights), shading_(shading), cone_(cone) {}
 
-    /// The light of a pixel, or of so many of its samples.
-    struct Shaded {
-        Vec2i pixel;
-        int samples;
-        Spectrum L;
-    };
-    /// Takes some of them.
-    using Take = std::function<void(std::span<const Shaded>)>;
+    /// Takes the light of some pixels, or of so many of their samples.
+    using Take = std::function<void(std::span<const EvenSamples>)>;
     void shade(const DrawnTile& tile, const Take& take) const;
 
   private:
