@@ -86,6 +86,43 @@ ALHAZEN_INLINE bool test_triangles(const WideSlot& slot, const float* leaf, std:
                         Lanes::all(slot.tmax), (1u << n) - 1, found);
 }
 
+/// Of candidates whose distance is in doubt, those that are met at t < 0 for certain: the triangle that a ray
+/// has just left, mostly. The plane's side follows from the corners as they are, whose differences are exact
+/// but for their last digit; x y z and a b c may change places without changing it.
+[[gnu::noinline]] std::uint32_t surely_behind(const WideRay& ray, const float* leaf, std::uint32_t n) {
+    struct Along {
+        F from_a, ab, ac, d; ///< from the origin to a, and so on
+    };
+    auto along = [&](std::size_t axis) __attribute__((always_inline)) {
+        const F a = Lanes::load(leaf + axis * n), b = Lanes::load(leaf + (axis + 3) * n),
+                c = Lanes::load(leaf + (axis + 6) * n);
+        return Along{Lanes::sub(a, Lanes::all(ray.o[axis])), Lanes::sub(b, a), Lanes::sub(c, a),
+                     Lanes::all(ray.d[axis])};
+    };
+    const Along x = along(0), y = along(1), z = along(2);
+    // n . (a - o) and n . d, with n = ab x ac, and the sums of all products' sizes.
+    F distance = Lanes::all(0), speed = distance, distance_size = distance, speed_size = distance;
+    auto add = [&](const Along& p, const Along& q, const Along& r) __attribute__((always_inline)) {
+        const F left = Lanes::mul(p.ab, q.ac), right = Lanes::mul(q.ab, p.ac);
+        const F normal = Lanes::sub(left, right),
+                size = Lanes::add(Lanes::magnitude(left), Lanes::magnitude(right));
+        distance = Lanes::add(distance, Lanes::mul(normal, r.from_a));
+        speed = Lanes::add(speed, Lanes::mul(normal, r.d));
+        distance_size = Lanes::add(distance_size, Lanes::mul(size, Lanes::magnitude(r.from_a)));
+        speed_size = Lanes::add(speed_size, Lanes::mul(size, Lanes::magnitude(r.d)));
+    };
+    add(x, y, z);
+    add(y, z, x);
+    add(z, x, y);
+    // Seven roundings of each product, at most.
+    const F error = Lanes::all(0x1p-20f);
+    auto is_certain = [&](F value, F size) __attribute__((always_inline)) {
+        return Lanes::below(Lanes::mul(size, error), Lanes::magnitude(value));
+    };
+    return is_certain(distance, distance_size) & is_certain(speed, speed_size) &
+           Lanes::below(Lanes::times_sign(distance, speed), Lanes::all(0));
+}
+
 /// Takes a hit if it is nearer than the one so far, or as near with a lower number.
 ALHAZEN_INLINE void take_if_nearer(WideSlot& slot, float t, float u, float v, std::uint32_t number) {
     const bool is_nearer = t < slot.t || (t == slot.t && number < slot.primitive);
@@ -156,8 +193,10 @@ ALHAZEN_INLINE bool visit_leaf(const WideQuery& query, const char* base, WideSlo
         take_nearest(slot, found, numbers);
     }
     bool has_changed = found.hit != 0;
-    if (found.special) [[unlikely]]
-        has_changed |= query.test(query.owner, slot, leaf, found.special);
+    if (found.special) [[unlikely]] {
+        found.special &= ~surely_behind(query.rays[slot.ray], corners, n);
+        if (found.special) has_changed |= query.test(query.owner, slot, leaf, found.special);
+    }
     return has_changed;
 }
 
