@@ -12,6 +12,14 @@ Collisions collisions_of(const Medium& medium, const Ray& ray, int hero, PathCon
     return Collisions(medium, ray, path.lambda, path.colors_of(medium), hero, start.u, Rng(start.key), clear);
 }
 
+// The same in place: it is large.
+void begin(std::optional<Collisions>& collisions, const Medium& medium, const Ray& ray, int hero,
+           PathContext& path, MediumNumbers& numbers, const ClearCells* clear) {
+    const MediumNumbers::Start start = numbers.next();
+    collisions.emplace(medium, ray, path.lambda, path.colors_of(medium), hero, start.u, Rng(start.key),
+                       clear);
+}
+
 // Through one medium towards a light; where hardly any of the whole is left, three of four such rays are
 // given up. False when it first has to be known which surface the ray meets.
 bool weaken_by(Collisions& collisions, float whole, LaneWeights& weights) {
@@ -123,8 +131,7 @@ Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, bool is_sky, Lan
             // Without a border in between, on to the light itself.
             Ray part = ray;
             part.tmax = 1;
-            collisions.emplace(collisions_of(*medium, part, weights.hero(), path, numbers,
-                                             &path.scene.clear_cells(*medium)));
+            begin(collisions, *medium, part, weights.hero(), path, numbers, &path.scene.clear_cells(*medium));
             // What the medium alone has decided needs no ray.
             if (weaken_by(*collisions, whole, weights)) co_return weights;
         }
@@ -141,7 +148,7 @@ Task<LaneWeights> shadow_weights(Ray ray, const Medium* medium, bool is_sky, Lan
             weights.weaken_surely(transmittance_of(*medium, ray, t, path));
         } else if (medium) {
             ray.tmax = 1;
-            collisions.emplace(collisions_of(*medium, ray, weights.hero(), path, numbers, nullptr));
+            begin(collisions, *medium, ray, weights.hero(), path, numbers, nullptr);
             weaken_by(*collisions, whole, weights);
         }
         if (!hit || weights.is_black()) co_return weights;

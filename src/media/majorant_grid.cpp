@@ -11,8 +11,12 @@ MajorantGrid::MajorantGrid(const Bounds3& box, Vec3i cells,
     : box_(box), cells_(cells) {
     const auto count = [](int n) { return static_cast<std::size_t>(n); };
     densities_.resize(count(cells.x) * count(cells.y) * count(cells.z));
-    Vec3 size = box.diagonal();
-    for (int i = 0; i < 3; ++i) size[i] /= static_cast<float>(cells[i]);
+    const Vec3 diagonal = box.diagonal();
+    for (int i = 0; i < 3; ++i) {
+        cell_size_[i] = diagonal[i] / static_cast<float>(cells[i]);
+        cells_per_length_[i] = 1 / cell_size_[i];
+    }
+    const Vec3 size = cell_size_;
     parallel_for(count(cells.z), 1, [&](std::size_t layer) {
         const int z = static_cast<int>(layer);
         for (int y = 0; y < cells.y; ++y)
@@ -30,53 +34,36 @@ MajorantGrid::MajorantGrid(const Bounds3& box, Vec3i cells,
 MajorantWalk::MajorantWalk(const MajorantGrid& grid, const Ray& ray) : grid_(grid), end_(ray.tmax) {
     if (grid.is_everywhere()) return;
     const Bounds3& box = grid.box();
+    // Infinite where the ray stays at one place along the axis, or as good as that.
+    const Vec3 inverse_d{1 / ray.d.x, 1 / ray.d.y, 1 / ray.d.z};
     for (int i = 0; i < 3; ++i) {
-        if (ray.d[i] == 0) {
+        if (std::isinf(inverse_d[i])) {
             if (!(ray.o[i] >= box.lo[i] && ray.o[i] <= box.hi[i])) is_over_ = true;
             continue;
         }
-        float in = (box.lo[i] - ray.o[i]) / ray.d[i], out = (box.hi[i] - ray.o[i]) / ray.d[i];
+        float in = (box.lo[i] - ray.o[i]) * inverse_d[i], out = (box.hi[i] - ray.o[i]) * inverse_d[i];
         if (in > out) std::swap(in, out);
         t_ = std::max(t_, in);
         end_ = std::min(end_, out);
     }
     is_over_ = is_over_ || !(t_ < end_);
     if (is_over_) return;
+    const Vec3 &size = grid.cell_size(), &cells_per_length = grid.cells_per_length();
     for (int i = 0; i < 3; ++i) {
-        const float size = (box.hi[i] - box.lo[i]) / static_cast<float>(grid.cells()[i]);
-        const float place = (ray.o[i] + ray.d[i] * t_ - box.lo[i]) / size;
+        const float place = (ray.o[i] + ray.d[i] * t_ - box.lo[i]) * cells_per_length[i];
         cell_[i] = std::clamp(static_cast<int>(place), 0, grid.cells()[i] - 1);
         step_[i] = ray.d[i] < 0 ? -1 : 1;
         next_t_[i] = delta_t_[i] = infinity;
-        if (ray.d[i] == 0) continue;
-        const float border = box.lo[i] + size * static_cast<float>(cell_[i] + (ray.d[i] > 0 ? 1 : 0));
-        next_t_[i] = (border - ray.o[i]) / ray.d[i];
-        delta_t_[i] = size / std::abs(ray.d[i]);
+        if (std::isinf(inverse_d[i])) continue;
+        const float border = box.lo[i] + size[i] * static_cast<float>(cell_[i] + (ray.d[i] > 0 ? 1 : 0));
+        next_t_[i] = (border - ray.o[i]) * inverse_d[i];
+        delta_t_[i] = size[i] * std::abs(inverse_d[i]);
     }
 }
 
 void MajorantWalk::limit(float tmax) {
     end_ = std::min(end_, tmax);
     is_over_ = is_over_ || !(t_ < end_);
-}
-
-std::optional<MajorantSegment> MajorantWalk::next() {
-    if (is_over_) return std::nullopt;
-    if (grid_.is_everywhere()) {
-        is_over_ = true;
-        return MajorantSegment{0, end_, 1};
-    }
-    const int axis =
-        next_t_.x < next_t_.y ? (next_t_.x < next_t_.z ? 0 : 2) : (next_t_.y < next_t_.z ? 1 : 2);
-    MajorantSegment segment{t_, std::clamp(next_t_[axis], t_, end_), grid_.density(cell_)};
-    cell_[axis] += step_[axis];
-    if (next_t_[axis] >= end_ || cell_[axis] < 0 || cell_[axis] >= grid_.cells()[axis]) {
-        segment.end = end_;
-        is_over_ = true;
-    }
-    next_t_[axis] += delta_t_[axis];
-    t_ = segment.end;
-    return segment;
 }
 
 } // namespace alhazen

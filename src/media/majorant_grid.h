@@ -1,6 +1,7 @@
 /// Bounds of a medium's density, cell by cell, and the stretches in which a ray sees them.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -22,6 +23,8 @@ class MajorantGrid {
     bool is_everywhere() const { return densities_.empty(); }
     const Bounds3& box() const { return box_; }
     Vec3i cells() const { return cells_; }
+    const Vec3& cell_size() const { return cell_size_; }
+    const Vec3& cells_per_length() const { return cells_per_length_; }
     float density(Vec3i cell) const {
         return densities_[static_cast<std::size_t>(cell.x + cells_.x * (cell.y + cells_.y * cell.z))];
     }
@@ -29,6 +32,7 @@ class MajorantGrid {
   private:
     Bounds3 box_;
     Vec3i cells_;
+    Vec3 cell_size_, cells_per_length_;
     std::vector<float> densities_;
 };
 
@@ -62,5 +66,25 @@ class MajorantWalk {
     Vec3i cell_, step_;
     Vec3 next_t_, delta_t_; ///< where the next border of each axis is, and from one to the next
 };
+
+// Here, so that a segment stays in registers: it is asked for again and again.
+inline std::optional<MajorantSegment> MajorantWalk::next() {
+    if (is_over_) return std::nullopt;
+    if (grid_.is_everywhere()) {
+        is_over_ = true;
+        return MajorantSegment{0, end_, 1};
+    }
+    const int axis =
+        next_t_.x < next_t_.y ? (next_t_.x < next_t_.z ? 0 : 2) : (next_t_.y < next_t_.z ? 1 : 2);
+    MajorantSegment segment{t_, std::clamp(next_t_[axis], t_, end_), grid_.density(cell_)};
+    cell_[axis] += step_[axis];
+    if (next_t_[axis] >= end_ || cell_[axis] < 0 || cell_[axis] >= grid_.cells()[axis]) {
+        segment.end = end_;
+        is_over_ = true;
+    }
+    next_t_[axis] += delta_t_[axis];
+    t_ = segment.end;
+    return segment;
+}
 
 } // namespace alhazen
