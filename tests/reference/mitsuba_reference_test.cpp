@@ -52,6 +52,10 @@ struct MitsubaScene {
     }
 };
 
+void PrintTo(const MitsubaScene& scene, std::ostream* out) {
+    *out << scene.scene;
+}
+
 struct Pictures {
     std::vector<Image> ours; ///< one of each seed
     Image reference, variance;

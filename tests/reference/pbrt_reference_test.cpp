@@ -19,6 +19,10 @@ struct QuickLook {
     int spp; ///< of each of four seeds
 };
 
+void PrintTo(const QuickLook& look, std::ostream* out) {
+    *out << look.scene;
+}
+
 /// Of the means, by design; 0: none.
 double known_difference(std::string_view scene) {
     for (const bench::SceneFacts& facts : bench::validation_scenes())

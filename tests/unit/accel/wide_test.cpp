@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "accel/wide/dispatch.h"
+#include "base/frame.h"
 #include "tests/unit/accel/support.h"
 
 namespace alhazen {
@@ -44,6 +45,26 @@ class Kernels : public testing::TestWithParam<std::string> {
                 if (tile % 13 == 12 && i % 2) ray = random_ray(triangles, scale, rng);
                 rays.push_back(ray);
             }
+        }
+        return rays;
+    }
+
+    // From points of triangles, and from a little to either side of them, to where the normal points and to
+    // the other side, steep and flat: what kernels decide for themselves about a triangle that a ray has just
+    // left.
+    static std::vector<Ray> rays_from_surfaces(const Triangles& triangles, float scale, Rng& rng) {
+        std::vector<Ray> rays;
+        for (int i = 0; i < 12000; ++i) {
+            const Corners& t = triangles.list[rng.below(triangles.count())];
+            const float u = rng.uniform(), v = rng.uniform() * (1 - u);
+            const Vec3 p = t.a + (t.b - t.a) * u + (t.c - t.a) * v,
+                       n = normalize(cross(t.b - t.a, t.c - t.a));
+            const float size = std::max({max_component(abs(t.a)), max_component(abs(t.b)), scale * 1e-6f});
+            const float off =
+                (rng.uniform() - 0.5f) * std::pow(2.0f, -static_cast<float>(18 + rng.below(10)));
+            const Vec3 along = random_point(rng, 1),
+                       d = along - n * (dot(along, n) * (rng.below(3) ? 0.0f : 0.999f));
+            rays.emplace_back(i % 7 ? p + n * (off * size) : p, d * (i % 2 ? scale : 1.0f));
         }
         return rays;
     }
@@ -110,6 +131,35 @@ TEST_P(Kernels, GiveTheSameBitsForRaysThatGoTheSameWay) {
     expect_same_as_stack(mixed, 1, 7, tiles_of_rays);
     // Large triangles, which all rays of a tile meet.
     expect_same_as_stack(random_triangles(40, 1, 2, 9), 1, 8, tiles_of_rays);
+}
+
+// Boxes of many sizes, one like another on the axes and turned.
+Triangles boxes(float scale, std::uint64_t seed) {
+    Rng rng(seed);
+    Triangles t;
+    for (int i = 0; i < 60; ++i) {
+        const Vec3 middle = random_point(rng, scale), half = random_point(rng, i % 10 ? 0.1f * scale : scale);
+        Frame frame;
+        if (i % 2) frame = Frame::from_z(normalize(random_point(rng, 1)));
+        auto corner = [&](int k) {
+            return middle + frame.to_world({k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y,
+                                            k & 4 ? half.z : -half.z});
+        };
+        for (int axis = 0; axis < 3; ++axis)
+            for (int side = 0; side < 2; ++side) {
+                const int first = side << axis, u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
+                t.list.push_back(Corners{corner(first), corner(first | u), corner(first | u | v)});
+                t.list.push_back(Corners{corner(first), corner(first | u | v), corner(first | v)});
+            }
+    }
+    return t;
+}
+
+TEST_P(Kernels, GiveTheSameBitsForRaysThatLeaveATriangle) {
+    for (float scale : {1e-6f, 1.0f, 1e6f}) {
+        expect_same_as_stack(boxes(scale, 11), scale, 12, rays_from_surfaces);
+        expect_same_as_stack(random_triangles(300, scale, 0.3f * scale, 13), scale, 14, rays_from_surfaces);
+    }
 }
 
 std::vector<std::string> supported() {
