@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/bounds.h"
+#include "color/even_samples.h"
 #include "color/wavelengths.h"
 #include "describe/kind.h"
 #include "film/filter.h"
@@ -12,13 +13,6 @@
 #include "image/image.h"
 
 namespace alhazen {
-
-/// Samples of a pixel that all show the same.
-struct EvenSamples {
-    Vec2i pixel;
-    int count = 1;
-    Spectrum L; ///< finite, in linear RGB
-};
 
 /// A film's parameters and its pixels. A pixel's samples must be added in sample order by one thread at a
 /// time; different pixels may be added to from different threads.

@@ -78,7 +78,7 @@ ALHAZEN_INLINE Floats near_part(const RasterLight& light, const ThreeFloats& p, 
         sent = (light.is_two_sided ? size_of(along) : along) * inverse;
     }
     const Floats value = received * inverse * sent * light.area / (d2 + light.area * inverse_pi);
-    return (received > 0) & (sent > 0) ? value : Floats{};
+    return ((received > 0) & (sent > 0)) ? value : Floats{};
 }
 
 void light_points(const RasterLight& light, const RasterPoints& points, float* part) {

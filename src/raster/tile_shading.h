@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "film/film.h"
+#include "color/even_samples.h"
 #include "raster/film_rays.h"
 #include "raster/rasterizer.h"
 #include "raster/shading.h"
