@@ -6,11 +6,6 @@ namespace alhazen {
 
 namespace {
 
-std::uint64_t next_number() {
-    static std::atomic<std::uint64_t> last = 0;
-    return ++last;
-}
-
 void raise(std::atomic<std::size_t>& peak, std::size_t value) {
     std::size_t seen = peak.load();
     while (seen < value && !peak.compare_exchange_weak(seen, value)) {
@@ -18,24 +13,6 @@ void raise(std::atomic<std::size_t>& peak, std::size_t value) {
 }
 
 } // namespace
-
-TileCache::TileCache(std::size_t limit) : number_(next_number()), limit_(limit) {}
-TileCache::~TileCache() = default;
-
-TileCache::Recent& TileCache::recent() {
-    struct Last {
-        std::uint64_t cache = 0;
-        Recent* recent = nullptr;
-    };
-    thread_local Last last;
-    if (last.cache != number_) {
-        std::lock_guard lock(mutex_);
-        auto& mine = recent_[std::this_thread::get_id()];
-        if (!mine) mine = std::make_unique<Recent>(*this);
-        last = {number_, mine.get()};
-    }
-    return *last.recent;
-}
 
 TileCache::TilePointer TileCache::get(std::uint64_t offset, std::size_t bytes) {
     Shard& shard = shards_[(offset * 0x9e3779b97f4a7c15u) >> 40 & (shards_.size() - 1)];
