@@ -43,10 +43,13 @@ struct Passing {
     Vector3 o, d;
     Floats inverse_a, rough;
 
-    /// Directions must be longer than 2^-63 and shorter than 2^64.
-    ALHAZEN_INLINE explicit Passing(const RayLanes& rays) : o(rays.o), d(rays.d), inverse_a(1 / inner(d, d)) {
+    ALHAZEN_INLINE explicit Passing(const RayLanes& rays) : o(rays.o), d(rays.d) {
+        const Floats a = inner(d, d);
         const Vector3 size = absolute(o);
-        rough = alhazen::bundle_rough * (size.x + size.y + size.z);
+        const Floats rounding = alhazen::bundle_rough * (size.x + size.y + size.z);
+        inverse_a = 1 / a;
+        // Of directions so short or long nothing is sure.
+        rough = ((a > 0x1p-100f) & (a < 0x1p100f)) ? rounding : Floats{} + infinite;
     }
     /// The rays that pass a ball by, beyond doubt.
     ALHAZEN_INLINE Ints surely_miss(const alhazen::BundleBall& ball) const {
