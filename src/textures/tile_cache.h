@@ -88,8 +88,7 @@ class TileCache {
     std::atomic<std::size_t> bytes_ = 0, peak_ = 0, next_shard_ = 0;
     std::atomic<std::uint64_t> made_ = 0, dropped_ = 0;
     mutable std::mutex mutex_;
-    tbb::enumerable_thread_specific<Recent, tbb::cache_aligned_allocator<Recent>, tbb::ets_key_per_instance>
-        recent_{[this] { return Recent(*this); }};
+    tbb::enumerable_thread_specific<Recent> recent_{[this] { return Recent(*this); }};
     std::string failure_;
 };
 

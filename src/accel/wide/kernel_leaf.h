@@ -100,12 +100,14 @@ ALHAZEN_INLINE bool test_triangles(const WideSlot& slot, const float* leaf, std:
                      Lanes::all(ray.d[axis])};
     };
     const Along x = along(0), y = along(1), z = along(2);
+    // Smaller numbers lose digits.
+    const F least = Lanes::all(0x1p-126f);
     // n . (a - o) and n . d, with n = ab x ac, and the sums of all products' sizes.
     F distance = Lanes::all(0), speed = distance, distance_size = distance, speed_size = distance;
     auto add = [&](const Along& p, const Along& q, const Along& r) __attribute__((always_inline)) {
         const F left = Lanes::mul(p.ab, q.ac), right = Lanes::mul(q.ab, p.ac);
         const F normal = Lanes::sub(left, right),
-                size = Lanes::add(Lanes::magnitude(left), Lanes::magnitude(right));
+                size = Lanes::add(Lanes::add(Lanes::magnitude(left), Lanes::magnitude(right)), least);
         distance = Lanes::add(distance, Lanes::mul(normal, r.from_a));
         speed = Lanes::add(speed, Lanes::mul(normal, r.d));
         distance_size = Lanes::add(distance_size, Lanes::mul(size, Lanes::magnitude(r.from_a)));
@@ -114,10 +116,10 @@ ALHAZEN_INLINE bool test_triangles(const WideSlot& slot, const float* leaf, std:
     add(x, y, z);
     add(y, z, x);
     add(z, x, y);
-    // Seven roundings of each product, at most.
+    // Eight roundings of each product, at most.
     const F error = Lanes::all(0x1p-20f);
     auto is_certain = [&](F value, F size) __attribute__((always_inline)) {
-        return Lanes::below(Lanes::mul(size, error), Lanes::magnitude(value));
+        return Lanes::below(Lanes::add(Lanes::mul(size, error), least), Lanes::magnitude(value));
     };
     return is_certain(distance, distance_size) & is_certain(speed, speed_size) &
            Lanes::below(Lanes::times_sign(distance, speed), Lanes::all(0));

@@ -49,7 +49,7 @@ struct Passing {
         const Floats rounding = alhazen::bundle_rough * (size.x + size.y + size.z);
         inverse_a = 1 / a;
         // Of directions so short or long nothing is sure.
-        rough = ((a > 0x1p-100f) & (a < 0x1p100f)) ? rounding : Floats{} + infinite;
+        rough = ((a > 0x1p-80f) & (a < 0x1p80f)) ? rounding : Floats{} + infinite;
     }
     /// The rays that pass a ball by, beyond doubt.
     ALHAZEN_INLINE Ints surely_miss(const alhazen::BundleBall& ball) const {

@@ -7,7 +7,8 @@
 
 const alhazen::BundleKernel* alhazen::bundle_kernel_avx2() {
     static constexpr BundleKernel kernel{
-        "avx2", [] { return static_cast<bool>(__builtin_cpu_supports("avx2")); }, &trace_bundle};
+        "avx2", [] { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); },
+        &trace_bundle};
     return &kernel;
 }
 

@@ -11,7 +11,8 @@ const alhazen::BundleKernel* alhazen::bundle_kernel_avx512() {
                                              return __builtin_cpu_supports("avx512f") &&
                                                     __builtin_cpu_supports("avx512vl") &&
                                                     __builtin_cpu_supports("avx512dq") &&
-                                                    __builtin_cpu_supports("avx512bw");
+                                                    __builtin_cpu_supports("avx512bw") &&
+                                                    __builtin_cpu_supports("fma");
                                          },
                                          &trace_bundle};
     return &kernel;

@@ -68,18 +68,18 @@ Vec3d centre_of(const BundleBall& ball) {
     return {ball.x, ball.y, ball.z};
 }
 
-// How near p comes to what lies between a ball and a point: to one of the balls that shrink on the way from
-// one to the other. That is a convex function of the way.
+// How near p comes to what lies between a ball and a point: to one of the balls that shrink on the way s from
+// the one to the other. Where the derivative of that convex function of s,
+//     |from + s way| - (1 - s) radius,
+// is 0, or at an end.
 double distance_to_cone(Vec3d p, const BundleBall& ball, Vec3d tip) {
-    auto distance = [&](double s) {
-        return length(centre_of(ball) + (tip - centre_of(ball)) * s - p) - (1 - s) * ball.radius;
-    };
-    double lo = 0, hi = 1;
-    for (int i = 0; i < 60; ++i) {
-        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
-    }
-    return std::min({distance(lo), distance(0), distance(1)});
+    const Vec3d way = tip - centre_of(ball), from = centre_of(ball) - p;
+    auto distance = [&](double s) { return length(from + way * s) - (1 - s) * ball.radius; };
+    const double a = dot(way, way), b = dot(way, from), c = dot(from, from), r2 = ball.radius_squared;
+    const double ends = std::min(distance(0), distance(1));
+    if (!(a > r2)) return ends; // the tip is in the ball
+    const double s = -(b + ball.radius * std::sqrt(std::max(a * c - b * b, 0.0) / (a - r2))) / a;
+    return std::min(ends, distance(std::clamp(s, 0.0, 1.0)));
 }
 
 // Not where the other keeps out of the way from the ball's surface to the light, and not where it has both
