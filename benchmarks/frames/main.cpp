@@ -1,6 +1,7 @@
 /// How many pictures of a loaded scene are made in a second, as a viewer asks for them, and how many with
 /// each ray traced alone. Both run in turn in one process; what counts are medians, and the median of the
 /// ratios.
+#include <algorithm>
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
