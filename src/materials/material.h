@@ -1,6 +1,8 @@
 /// Materials: what the user edits. at() looks every texture up once and returns the BSDF of that point.
 #pragma once
 
+#include <vector>
+
 #include "base/arena.h"
 #include "base/hit.h"
 #include "describe/kind.h"
@@ -11,6 +13,13 @@
 namespace alhazen {
 
 struct Bssrdf; // materials/bssrdf.h
+struct Material;
+
+/// A material that shows at a point, and how much of the light there is its.
+struct MaterialShare {
+    const Material* material;
+    float share;
+};
 
 struct Material {
     static constexpr std::string_view family_name = "material";
@@ -36,6 +45,13 @@ struct Material {
     virtual bool is_uniform() const { return false; }
     /// The material in effect at the hit: itself, or one of those it mixes.
     virtual const Material* choose(const Hit&) const { return this; }
+    /// True when choose() may give another one.
+    virtual bool is_mixture() const { return false; }
+    /// Appends what choose() gives around the hit, each with its part of `share`; none of them is a mixture.
+    /// What has a small part of the whole may stand for others.
+    virtual void add_shares(const Hit&, float share, std::vector<MaterialShare>& shares) const {
+        shares.push_back({this, share});
+    }
     /// Whether the relief of some material in effect may turn the shading normal.
     virtual bool has_relief() const { return !relief.is_flat(); }
 

@@ -79,6 +79,15 @@ struct Mix final : Material {
         float u = unit_float(hash_of(salt, bits(hit.p.x), bits(hit.p.y), bits(hit.p.z)));
         return (u < t ? second : first)->choose(hit);
     }
+    bool is_mixture() const override { return true; }
+    // Mixtures of mixtures may have more parts than could be counted: below a 64th one is chosen.
+    void add_shares(const Hit& hit, float share, std::vector<MaterialShare>& shares) const override {
+        if (!(share >= 1.0f / 64)) return shares.push_back({choose(hit), share});
+        const float t = amount.eval(TexturePoint(hit));
+        const float of_second = t >= 1 ? share : t > 0 ? share * t : 0;
+        if (of_second < share) first->add_shares(hit, share - of_second, shares);
+        if (of_second > 0) second->add_shares(hit, of_second, shares);
+    }
     bool needs_parameters() const override { return parts.need_parameters; }
     bool has_relief() const override { return parts.have_relief; }
     Bsdf* at(const Hit& hit, Wavelengths& lambda, Arena& arena) const override {

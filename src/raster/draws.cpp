@@ -110,7 +110,8 @@ Ray PlacedSurface::local_ray(const Ray& ray, float& shift) const {
     return local;
 }
 
-Hit PlacedSurface::surface(const Ray& local, std::uint32_t primitive, const Intersection& met) const {
+Hit PlacedSurface::surface(const Ray& local, std::uint32_t primitive, const Intersection& met,
+                           const Material* shown) const {
     Found found;
     found.hit = met;
     found.hit.primitive = object->number_of(shape, primitive);
@@ -118,7 +119,7 @@ Hit PlacedSurface::surface(const Ray& local, std::uint32_t primitive, const Inte
     found.instances = instances;
     found.depth = depth;
     found.ray = local;
-    return Object::surface(found);
+    return Object::surface(found, shown);
 }
 
 std::vector<Draw> collect_draws(const Scene& scene, const Projection& projection, Vec2i origin,

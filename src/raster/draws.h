@@ -26,8 +26,9 @@ struct PlacedSurface {
         float shift = 0;
         return local_ray(ray, shift);
     }
-    /// The hit that a local ray makes with a primitive of the shape.
-    Hit surface(const Ray& local, std::uint32_t primitive, const Intersection& met) const;
+    /// The hit that a local ray makes with a primitive of the shape; shown: as for Object::surface.
+    Hit surface(const Ray& local, std::uint32_t primitive, const Intersection& met,
+                const Material* shown = nullptr) const;
 };
 
 /// Something to draw.

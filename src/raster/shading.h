@@ -30,6 +30,8 @@ class LocalShading {
     /// ambient light, the surroundings and each light. It is Whitted's formula with the surroundings, blurred
     /// as matte surfaces see them, for what mirrors and glass show. bsdf is the hit's material's.
     Spectrum radiance(const Hit& hit, const Bsdf& bsdf) const;
+    /// The same of a hit that shows what is behind: as for glass.
+    Spectrum behind(const Hit& hit) const { return blurred(-hit.wo); }
     /// The same for matte points, without what they emit.
     void light(RasterPoints& points) const;
 

@@ -126,9 +126,10 @@ class TileShading::Shader {
             triangle_.fill(rays_.origin(spot.film), rays_.direction(spot.film), hit_);
         else if (!find_hit(spot.film))
             return take({pixel, seen.samples, 0});
+        if (mixture_) return take({pixel, seen.samples, radiance_of_mixture()});
         const KnownBsdf* known = bsdf_at_hit();
         if (!known->bsdf)
-            take({pixel, seen.samples, 0}); // a mixture's part that is only a border of media
+            take({pixel, seen.samples, shading_.behind(hit_)});
         else if (known->matte && !hit_.area_light)
             add_matte(pixel, seen.samples, spot, {hit_.ng, hit_.ns}, *known->matte);
         else
@@ -162,6 +163,22 @@ class TileShading::Shader {
         is_simple_ =
             triangle_mesh_ && surface_->depth == 0 && !(placed.material && placed.material->has_relief());
         is_uniform_ = placed.material && placed.material->is_uniform();
+        mixture_ = placed.material && placed.material->is_mixture() ? placed.material : nullptr;
+    }
+
+    // All that are mixed: a look at one of them a pixel would be seen as specks.
+    Spectrum radiance_of_mixture() {
+        hit_.cone = cone_;
+        shares_.clear();
+        mixture_->add_shares(hit_, 1, shares_);
+        Spectrum sum = 0;
+        for (const MaterialShare& part : shares_) {
+            if (mixture_->has_relief()) hit_ = surface_->surface(local_, primitive_, met_, part.material);
+            hit_.material = part.material;
+            const Bsdf* bsdf = bsdf_at_hit()->bsdf;
+            sum += part.share * (bsdf ? shading_.radiance(hit_, *bsdf) : shading_.behind(hit_));
+        }
+        return sum;
     }
 
     void add_uniform_matte(Vec2i pixel, int samples, const Spot& spot) {
@@ -174,13 +191,13 @@ class TileShading::Shader {
         at.film = film;
         auto ray = camera_.ray(at);
         if (!ray) return false;
-        const Ray local = surface_->local_ray(ray->ray);
-        Intersection met;
+        local_ = surface_->local_ray(ray->ray);
+        met_ = {};
         if (triangle_mesh_)
-            met = point_of_triangle(*triangle_mesh_, primitive_, local);
-        else if (!surface_->placed().shape->intersect(local, primitive_, met))
+            met_ = point_of_triangle(*triangle_mesh_, primitive_, local_);
+        else if (!surface_->placed().shape->intersect(local_, primitive_, met_))
             return false;
-        hit_ = surface_->surface(local, primitive_, met);
+        hit_ = surface_->surface(local_, primitive_, met_, mixture_);
         return true;
     }
 
@@ -262,13 +279,17 @@ class TileShading::Shader {
     const PlacedSurface* surface_ = nullptr;
     std::uint32_t primitive_ = 0;
     const TriangleMesh* triangle_mesh_ = nullptr;
-    bool is_simple_ = false;        ///< a triangle whose hits triangle_ knows
-    bool is_uniform_ = false;       ///< its material is the same all over
-    bool is_uniform_matte_ = false; ///< such a one, which shows matte_ all over
+    const Material* mixture_ = nullptr; ///< its material, where that is one
+    bool is_simple_ = false;            ///< a triangle whose hits triangle_ knows
+    bool is_uniform_ = false;           ///< its material is the same all over
+    bool is_uniform_matte_ = false;     ///< such a one, which shows matte_ all over
     Spectrum matte_ = 0;
     TriangleCache triangle_;
     std::array<Flat, 128> flats_; ///< those seen last, by number: rows of pixels come back to them
     Hit hit_;
+    Ray local_; ///< that made the hit, as
+    Intersection met_;
+    std::vector<MaterialShare> shares_;
 
     Arena arena_, uniform_arena_;
     KnownBsdf passing_;

@@ -33,10 +33,9 @@ auto with_place(const PlacedObject& instance, float time, Use use) {
     return instance.movement ? use(instance.movement->at(time)) : use(instance.world_from_object);
 }
 
-// Turns the hit's normal by the relief of the material that is in effect there.
+// Turns the hit's normal by the relief of its material.
 void apply_relief(const Shape& shape, const Found& found, const Hit& local, Hit& hit) {
-    hit.material = hit.material->choose(hit);
-    if (!hit.material->has_relief()) return;
+    if (hit.material->relief.is_flat()) return;
     NormalChange change = shape.normal_change(local);
     Vec3 n = local.ns;
     for (std::size_t i = found.depth; i-- > 0;) {
@@ -353,7 +352,7 @@ bool Object::count(Query query, const Ray& ray, WalkCounts& counts) const {
     return structure_->count(query, ray, tests, counts) || nearest.found();
 }
 
-Hit Object::surface(const Found& found) {
+Hit Object::surface(const Found& found, const Material* shown) {
     const Primitive& primitive = found.object->primitives_[found.hit.primitive];
     const PlacedShape& placed = found.object->shapes_[primitive.shape];
     const Leaf& leaf = found.object->leaves_[primitive.shape];
@@ -363,13 +362,15 @@ Hit Object::surface(const Found& found) {
     const Hit local = leaf.has_relief ? hit : Hit{};
     hit.shape = primitive.shape;
     hit.primitive = primitive.primitive;
-    hit.material = placed.material;
+    hit.material = shown ? shown : placed.material;
     hit.media = placed.media.is_border() ? &placed.media : nullptr;
     hit.area_light = placed.lights.empty() ? nullptr : placed.lights[primitive.primitive];
     for (std::size_t i = found.depth; i-- > 0;)
         with_place(*found.instances[i], found.ray.time, [&](const Transform& t) { transform_hit(t, hit); });
     if (found.depth > 0) hit.instance = found.instances[found.depth - 1]->number + 1;
-    if (leaf.has_relief) apply_relief(*placed.shape, found, local, hit);
+    if (!leaf.has_relief) return hit;
+    if (!shown) hit.material = hit.material->choose(hit);
+    apply_relief(*placed.shape, found, local, hit);
     return hit;
 }
 

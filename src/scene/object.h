@@ -71,8 +71,9 @@ class Object final : public Primitives {
     /// Walks as closest or any would, into instances too, and adds what was visited. True when there is a
     /// hit.
     bool count(Query query, const Ray& ray, WalkCounts& counts) const;
-    /// The full hit, in world space.
-    static Hit surface(const Found& found);
+    /// The full hit, in world space; shown: in place of the shape's material, which it is or is part of. If
+    /// that is a mixture, none of what it mixes is chosen, and none's relief is seen.
+    static Hit surface(const Found& found, const Material* shown = nullptr);
 
     /// The number that a shape's primitive has in Found.
     std::uint32_t number_of(std::uint32_t shape, std::uint32_t primitive) const {

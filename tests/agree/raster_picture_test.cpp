@@ -104,6 +104,53 @@ AttributeEnd
     }
 }
 
+// Rays see one of the materials at each point; here all count, each with its own relief.
+TEST(RasterPicture, OfAMixtureIsTheMixtureOfItsPartsPictures) {
+    auto picture = [](const std::string& shown) {
+        return rendered(header + point_lights + R"(
+LightSource "infinite" "rgb L" [ .2 .3 .5 ]
+Texture "bumps" "float" "windy"
+Texture "stripes" "float" "checkerboard" "float uscale" 4 "float vscale" .01 "float tex1" .2 "float tex2" 1
+MakeNamedMaterial "clay" "string type" "diffuse" "rgb reflectance" [ .7 .3 .2 ] "texture displacement" "bumps"
+MakeNamedMaterial "shine" "string type" "phong" "rgb specular" [ .5 .5 .5 ] "float shininess" 20
+MakeNamedMaterial "paint" "string type" "diffuse" "rgb reflectance" [ .2 .3 .8 ]
+MakeNamedMaterial "nothing" "string type" "interface"
+MakeNamedMaterial "striped paint" "string type" "mix" "string materials" [ "clay" "paint" ]
+    "texture amount" "stripes"
+)" + shown + R"(
+Shape "trianglemesh" "point3 P" [ -5 -1 -5  5 -1 -5  5 -1 5  -5 -1 5 ] "integer indices" [ 0 1 2  0 2 3 ]
+Shape "sphere" "float radius" 1
+ObjectBegin "tent"
+Shape "trianglemesh" "point3 P" [ -1 -1 0  1 -1 0  0 1 .5 ] "normal N" [ -.5 0 -1  .5 0 -1  0 .5 -1 ]
+ObjectEnd
+Translate 2 0 1
+ObjectInstance "tent"
+)",
+                        "raster", {});
+    };
+    auto one = [](const std::string& name) { return "NamedMaterial \"" + name + "\"\n"; };
+    auto mixed = [](const std::string& a, const std::string& b, const std::string& amount) {
+        return "Material \"mix\" \"string materials\" [ \"" + a + "\" \"" + b + "\" ] \"float amount\" " +
+               amount + "\n";
+    };
+    for (auto [a, b] : {std::pair{"clay", "shine"}, std::pair{"shine", "paint"}, std::pair{"paint", "clay"},
+                        std::pair{"striped paint", "shine"}}) {
+        Image first = picture(one(a)), second = picture(one(b));
+        const Image mixture = picture(mixed(a, b, ".3"));
+        double largest = 0;
+        for (int y = 0; y < mixture.height(); ++y)
+            for (int x = 0; x < mixture.width(); ++x)
+                for (int c = 0; c < 3; ++c)
+                    largest = std::max(largest, std::abs(.7 * first.rgb(x, y)[c] + .3 * second.rgb(x, y)[c] -
+                                                         mixture.rgb(x, y)[c]));
+        EXPECT_LT(largest, 1e-5) << a << " and " << b;
+        EXPECT_GT(share_that_differs(first, mixture, 1e-2f), .2) << a << " and " << b;
+    }
+    // What is behind shows through as it does through glass: never black, as if nothing were there.
+    const Image half = picture(mixed("paint", "nothing", ".999"));
+    EXPECT_GT(mean_of(half, 2), 0.1);
+}
+
 TEST(RasterPicture, BlinnsHighlightIsAsWideAsPhongs) {
     const std::string text = header + point_lights + things;
     const Image phong = rendered(text, "raster", {}),

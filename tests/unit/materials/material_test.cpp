@@ -199,6 +199,44 @@ TEST_F(MaterialTest, MixturesNest) {
     EXPECT_EQ(seen, (std::set<const Material*>{set.find("a"), set.find("b"), set.find("c")}));
 }
 
+TEST_F(MaterialTest, MixturesKnowTheirShares) {
+    const Material* m =
+        build({node_of("mix", {strings("materials", {"inner", "c"}), make_float("amount", 0.25f)}, "outer"),
+               node_of("mix", {strings("materials", {"a", "b"}), make_float("amount", 0.4f)}, "inner"),
+               node_of("diffuse", {}, "a"), node_of("conductor", {}, "b"), node_of("dielectric", {}, "c")});
+    ASSERT_NE(m, nullptr);
+    EXPECT_TRUE(m->is_mixture());
+    std::vector<MaterialShare> shares;
+    m->add_shares(hit({1, 2, 3}), 2, shares);
+    ASSERT_EQ(shares.size(), 3u);
+    const std::pair<const char*, float> expected[] = {{"a", 0.9f}, {"b", 0.6f}, {"c", 0.5f}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(shares[i].material, set.find(expected[i].first));
+        EXPECT_FALSE(shares[i].material->is_mixture());
+        EXPECT_NEAR(shares[i].share, expected[i].second, 1e-6f);
+    }
+}
+
+// Sixty mixtures, each of the next one twice, have 2^60 parts.
+TEST_F(MaterialTest, SharesOfDeepMixturesAreFew) {
+    std::vector<Node> nodes;
+    for (int i = 0; i < 60; ++i)
+        nodes.push_back(node_of("mix", {strings("materials", {std::to_string(i + 1), std::to_string(i + 1)})},
+                                std::to_string(i)));
+    nodes.push_back(node_of("diffuse", {}, "60"));
+    const Material* m = build(std::move(nodes));
+    ASSERT_NE(m, nullptr);
+    std::vector<MaterialShare> shares;
+    m->add_shares(hit({1, 2, 3}), 1, shares);
+    EXPECT_LE(shares.size(), 128u);
+    float sum = 0;
+    for (const MaterialShare& s : shares) {
+        EXPECT_EQ(s.material, set.find("60"));
+        sum += s.share;
+    }
+    EXPECT_NEAR(sum, 1, 1e-6f);
+}
+
 TEST_F(MaterialTest, MixturesOfThemselvesAreErrors) {
     EXPECT_EQ(build({node_of("mix", {strings("materials", {"b", "d"})}, "a"),
                      node_of("mix", {strings("materials", {"a", "d"})}, "b"), node_of("diffuse", {}, "d")}),
