@@ -1,13 +1,14 @@
 /// bench_distance SCENE...: accelerator "sdf" beside exact tracing. Prints, for each scene and number of
 /// cells, how far the picture is from an exact one with another seed (and how far two exact ones are from
 /// each other, which is the noise), what building the field takes, and how many times as fast the picture is
-/// made.
+/// made; and how many times as fast rays alone are answered, as a path tracer would ask for them.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 
 #include "formats/format.h"
 #include "image/metrics.h"
+#include "lab/ray_sets.h"
 #include "lab/timing.h"
 #include "render/renderer.h"
 
@@ -54,6 +55,75 @@ void print_error(const std::string& name, const Image& image, const Image& refer
                flip(image, reference).value);
 }
 
+/// Answers many rays as integrators' queues do, and keeps what came out, so that it must be found.
+struct Answers {
+    static constexpr std::size_t batch = 256;
+
+    explicit Answers(const RaySet& set_) : set(set_), t(set_.rays.size()) {}
+
+    template <class Closest, class Blocked>
+    double time(const Closest& closest, const Blocked& blocked) {
+        return processor_seconds_of([&] {
+            for (std::size_t first = 0; first < t.size(); first += batch) {
+                const std::span rays(&set.rays[first], std::min(batch, t.size() - first));
+                if (set.kind == RayKind::diffuse) {
+                    closest(rays, std::span(found.data(), rays.size()));
+                    for (std::size_t i = 0; i < rays.size(); ++i) {
+                        const auto hit = Scene::surface(found[i]);
+                        t[first + i] = hit ? hit->t : infinity;
+                    }
+                } else {
+                    blocked(rays, std::span(is_blocked.data(), rays.size()));
+                    for (std::size_t i = 0; i < rays.size(); ++i) t[first + i] = is_blocked[i] ? 0 : infinity;
+                }
+            }
+        });
+    }
+
+    const RaySet& set;
+    std::vector<float> t;
+    std::array<Found, batch> found;
+    std::array<std::uint8_t, batch> is_blocked{};
+};
+
+void compare_rays(const std::string& file, const Options& options, int cells) {
+    Messages messages;
+    messages.lenient = true;
+    auto world = build_world(read_scene(file, messages), {}, messages);
+    world->scene->approximate(cells);
+    const Scene& scene = *world->scene;
+    const DistanceScene& field = *scene.approximation();
+    const float cell = max_component(scene.bounds().diagonal()) / static_cast<float>(cells);
+    for (const RaySet& set : make_ray_sets(*world)) {
+        if (set.kind == RayKind::primary || set.rays.empty()) continue;
+        Answers exact(set), approximate(set);
+        std::vector<Intersection> hits;
+        std::vector<double> ratios;
+        for (int i = 0; i < 2 * options.repeat + 1; ++i) {
+            const double exact_s = exact.time(
+                [&](std::span<const Ray> rays, std::span<Found> found) {
+                    hits.assign(rays.size(), Intersection{});
+                    scene.closest(rays, hits, found);
+                },
+                [&](std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
+                    scene.blocked(rays, blocked);
+                });
+            ratios.push_back(
+                exact_s / approximate.time([&](auto rays, auto found) { field.closest(rays, found); },
+                                           [&](auto rays, auto blocked) { field.blocked(rays, blocked); }));
+        }
+        std::size_t same = 0;
+        for (std::size_t i = 0; i < exact.t.size(); ++i)
+            same += exact.t[i] == approximate.t[i] ||
+                    std::abs(exact.t[i] - approximate.t[i]) * length(set.rays[i].d) < cell;
+        fmt::print(
+            "  {:<8} rays alone       {:.1f} % end within a cell of where they should; x{:.2f} as fast "
+            "(spread {:.2f})\n",
+            name_of(set.kind), 100.0 * static_cast<double>(same) / static_cast<double>(exact.t.size()),
+            median_of(ratios), spread_of(ratios));
+    }
+}
+
 void compare(const std::string& file, const Options& options) {
     fmt::print("{}: {} x {}, {} samples a pixel, {}; processor time\n", file, options.size.x, options.size.y,
                options.spp, options.integrator);
@@ -73,6 +143,7 @@ void compare(const std::string& file, const Options& options) {
         print_error(fmt::format("field of {} cells", cells), image, reference.image);
         fmt::print("x{:.2f} as fast (spread {:.2f}), built in {:.2f} s\n", median_of(ratios),
                    spread_of(ratios), median_of(builds));
+        compare_rays(file, options, cells);
     }
 }
 

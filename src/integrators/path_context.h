@@ -90,15 +90,17 @@ class PathContext {
         const DistanceScene* approximation; ///< asked instead of the scene, when there is one
         std::uint32_t place = 0;
 
-        bool await_ready() const noexcept { return approximation || !path.queue_; }
+        bool await_ready() const noexcept { return !path.queue_; }
         void await_suspend(std::coroutine_handle<> waiting) {
-            place = path.queue_->add_closest(ray, waiting, path.number_);
+            place = approximation ? path.queue_->add_approximate(ray, waiting, path.number_)
+                                  : path.queue_->add_closest(ray, waiting, path.number_);
         }
         // The hit is made here, where it will stay.
         std::optional<Hit> await_resume() const {
-            if (approximation) return approximation->closest(ray);
-            auto hit = path.queue_ ? Scene::surface(path.queue_->found(place)) : path.scene.closest(ray);
-            if (!hit) return hit;
+            auto hit = path.queue_     ? Scene::surface(path.queue_->found(place))
+                       : approximation ? approximation->closest(ray)
+                                       : path.scene.closest(ray);
+            if (!hit || approximation) return hit;
             hit->cone = path.scene.pixel_cone();
             if (path.surface) path.see(ray, *hit);
             return hit;
@@ -109,14 +111,14 @@ class PathContext {
         const Ray& ray;
         std::uint32_t place = 0;
 
-        bool await_ready() const noexcept { return path.scene.approximation() || !path.queue_; }
+        bool await_ready() const noexcept { return !path.queue_; }
         void await_suspend(std::coroutine_handle<> waiting) {
             place = path.queue_->add_shadow(ray, waiting, path.number_);
         }
         bool await_resume() const {
-            if (const DistanceScene* approximation = path.scene.approximation())
-                return approximation->visible(ray);
-            return path.queue_ ? path.queue_->visible(place) : path.scene.visible(ray);
+            if (path.queue_) return path.queue_->visible(place);
+            const DistanceScene* approximation = path.scene.approximation();
+            return approximation ? approximation->visible(ray) : path.scene.visible(ray);
         }
     };
 

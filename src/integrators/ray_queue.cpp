@@ -2,15 +2,19 @@
 
 namespace alhazen {
 
-void RayQueue::trace_closest(const Scene& scene) {
-    if (found_.size() < traced_.rays.size()) found_.resize(traced_.rays.size());
-    hits_.assign(traced_.rays.size(), Intersection{});
-    scene.closest(traced_.rays, hits_, {found_.data(), traced_.rays.size()});
-}
-
-void RayQueue::trace_shadows(const Scene& scene) {
-    blocked_.resize(traced_.rays.size());
-    scene.blocked(traced_.rays, blocked_);
+void RayQueue::trace(const Scene& scene, Kind kind) {
+    const std::vector<Ray>& rays = traced_.rays;
+    const DistanceScene* approximation = scene.approximation();
+    if (kind == shadow) {
+        blocked_.resize(rays.size());
+        if (approximation) return approximation->blocked(rays, blocked_);
+        return scene.blocked(rays, blocked_);
+    }
+    if (found_.size() < rays.size()) found_.resize(rays.size());
+    const std::span found(found_.data(), rays.size());
+    if (kind == approximate) return approximation->closest(rays, found);
+    hits_.assign(rays.size(), Intersection{});
+    scene.closest(rays, hits_, found);
 }
 
 } // namespace alhazen

@@ -2,6 +2,8 @@
 /// text stay sequential while its rays travel in company.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <coroutine>
 #include <cstdint>
 #include <vector>
@@ -17,26 +19,33 @@ class RayQueue {
     /// Adds a ray; the path's number comes back in trace(). The answer is at the returned place when the path
     /// is resumed, until it suspends again.
     std::uint32_t add_closest(const Ray& ray, std::coroutine_handle<> path, std::uint32_t number) {
-        return closest_.add(ray, path, number);
+        return of(closest).add(ray, path, number);
     }
+    /// Is answered by the scene's approximation, which must be there.
+    std::uint32_t add_approximate(const Ray& ray, std::coroutine_handle<> path, std::uint32_t number) {
+        return of(approximate).add(ray, path, number);
+    }
+    /// Is answered by the scene's approximation, where there is one.
     std::uint32_t add_shadow(const Ray& ray, std::coroutine_handle<> path, std::uint32_t number) {
-        return shadow_.add(ray, path, number);
+        return of(shadow).add(ray, path, number);
     }
     const Found& found(std::uint32_t place) const { return found_[place]; }
     bool visible(std::uint32_t place) const { return !blocked_[place]; }
 
-    bool empty() const { return closest_.rays.empty() && shadow_.rays.empty(); }
+    bool empty() const {
+        return std::all_of(waiting_.begin(), waiting_.end(), [](const Waiting& w) { return w.rays.empty(); });
+    }
 
-    /// Traces the rays of the kind of which more are waiting and resumes their paths in the order in which
+    /// Traces the rays of the kind of which most are waiting and resumes their paths in the order in which
     /// they came; after each calls after(number of the path).
     template <class After>
     void trace(const Scene& scene, const After& after) {
-        const bool shadows = shadow_.rays.size() > closest_.rays.size();
-        std::swap(traced_, shadows ? shadow_ : closest_);
-        if (shadows)
-            trace_shadows(scene);
-        else
-            trace_closest(scene);
+        const auto most =
+            std::max_element(waiting_.begin(), waiting_.end(), [](const Waiting& a, const Waiting& b) {
+                return a.rays.size() < b.rays.size();
+            });
+        std::swap(traced_, *most);
+        trace(scene, static_cast<Kind>(most - waiting_.begin()));
         for (std::size_t i = 0; i < traced_.paths.size(); ++i) {
             traced_.paths[i].resume();
             after(traced_.numbers[i]);
@@ -63,10 +72,12 @@ class RayQueue {
         }
     };
 
-    void trace_closest(const Scene& scene);
-    void trace_shadows(const Scene& scene);
+    enum Kind : std::size_t { closest, approximate, shadow, kinds };
+    Waiting& of(Kind kind) { return waiting_[kind]; }
+    void trace(const Scene& scene, Kind kind);
 
-    Waiting closest_, shadow_, traced_;
+    std::array<Waiting, kinds> waiting_;
+    Waiting traced_;
     std::vector<Intersection> hits_;
     std::vector<Found> found_;
     std::vector<std::uint8_t> blocked_;

@@ -9,6 +9,8 @@ constexpr std::size_t ring_size = 1024;
 // A path's frames and BSDFs fit in one such block, mostly.
 constexpr std::size_t arena_block = 4096;
 constexpr int many_paths = 128;
+// Rays that march through a distance field do so 32 at a time, and need as many in waiting again and again.
+constexpr int marching_paths = 256;
 // Below this, one ray at a time was measured to be a tenth to a quarter faster (Whitted's spheres, the
 // Cornell box).
 constexpr std::size_t cached_bytes = std::size_t{256} << 10;
@@ -18,6 +20,7 @@ constexpr std::size_t bundled = 64;
 } // namespace
 
 int default_paths_in_flight(const Scene& scene) {
+    if (scene.approximation()) return marching_paths;
     return scene.counts().accel_bytes < cached_bytes ? 1 : many_paths;
 }
 

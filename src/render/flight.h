@@ -11,7 +11,7 @@
 namespace alhazen {
 
 /// How many paths to follow at a time in a scene, when nobody says: many, to hide the latency of memory, or
-/// one, where the structures fit a core's own cache and there is none to hide.
+/// one, where the structures fit a core's own cache and there is none to hide; more through distance fields.
 int default_paths_in_flight(const Scene& scene);
 
 /// Samples of pixels of which this thread is the only owner.

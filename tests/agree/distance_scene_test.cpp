@@ -127,6 +127,17 @@ TEST(DistanceScenes, ThreadsDoNotChangeABit) {
     EXPECT_EQ(std::memcmp(va.data(), vb.data(), va.size_bytes()), 0);
 }
 
+// Marched in company or alone.
+TEST(DistanceScenes, PathsInFlightDoNotChangeABit) {
+    RenderSettings alone, many;
+    alone.paths_in_flight = 1;
+    many.paths_in_flight = 100;
+    const std::string text = scene("\"path\"", field);
+    Image a = render_text(text, alone).image, b = render_text(text, many).image;
+    auto va = a.values(), vb = b.values();
+    EXPECT_EQ(std::memcmp(va.data(), vb.data(), va.size_bytes()), 0);
+}
+
 TEST(DistanceScenes, OtherShapesAreAnError) {
     std::string text = scene("\"path\"", field) + "Shape \"sphere\" \"float radius\" .2\n";
     try {

@@ -2,7 +2,8 @@
 /// shapes/sphere.cpp.
 #pragma once
 
-#include "integrators/bundle/lanes_text.h"
+#include "base/lanes_text.h"
+#include "integrators/bundle/kernel.h"
 
 namespace {
 

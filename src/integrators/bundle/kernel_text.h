@@ -8,12 +8,17 @@
 
 namespace {
 
+static_assert(lanes == alhazen::bundle_lanes);
 constexpr int colors = alhazen::bundle_colors;
 // See shadow_epsilon.
 constexpr float shadow_end = 1 - 1e-4f;
 constexpr float least_distance_squared = 0x1p-126f;
 // exp(-104) rounds to 0.
 constexpr float smallest_exponent = 105;
+
+struct Color {
+    Floats c[colors];
+};
 
 /// The material in each lane.
 struct PhongLanes {

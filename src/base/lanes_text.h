@@ -2,7 +2,7 @@
 /// lane, in the order in which base/vec.h has them; comparisons give lanes of -1 (true) or 0.
 #pragma once
 
-#include "integrators/bundle/kernel.h"
+#include <cstdint>
 
 namespace {
 
@@ -13,7 +13,7 @@ using Ints = std::int32_t __attribute__((vector_size(32)));
 using Doubles = double __attribute__((vector_size(64)));
 using Longs = long long __attribute__((vector_size(64)));
 
-constexpr int lanes = alhazen::bundle_lanes;
+constexpr int lanes = 8;
 constexpr float infinite = __builtin_inff();
 
 ALHAZEN_INLINE Doubles widen(Floats v) {
@@ -142,9 +142,5 @@ ALHAZEN_INLINE Vector3 narrow(const Vector3d& v) {
 ALHAZEN_INLINE Vector3 absolute(const Vector3& v) {
     return {absolute(v.x), absolute(v.y), absolute(v.z)};
 }
-
-struct Color {
-    Floats c[alhazen::bundle_colors];
-};
 
 } // namespace

@@ -1,0 +1,27 @@
+/// The kernel that marches rays through a distance field, for x86-64 with AVX-512.
+#include "scene/march/kernel.h"
+
+#if defined(__AVX512F__)
+
+#include "scene/march/kernel_text.h"
+
+const alhazen::MarchKernel* alhazen::march_kernel_avx512() {
+    static constexpr MarchKernel kernel{"avx512",
+                                        [] {
+                                            return __builtin_cpu_supports("avx512f") &&
+                                                   __builtin_cpu_supports("avx512vl") &&
+                                                   __builtin_cpu_supports("avx512dq") &&
+                                                   __builtin_cpu_supports("avx512bw") &&
+                                                   __builtin_cpu_supports("fma");
+                                        },
+                                        &march};
+    return &kernel;
+}
+
+#else
+
+const alhazen::MarchKernel* alhazen::march_kernel_avx512() {
+    return nullptr;
+}
+
+#endif
