@@ -5,6 +5,10 @@
 ///     trace(ray, depth) = (1 - kr) local + kr trace(mirrored, depth - 1) + kt trace(refracted, depth - 1)
 ///
 /// The picture: hard shadows, sharp reflections, glass; nothing soft. Values are linear RGB.
+///
+/// Each surface may send out two rays, and a scene made for path tracing may ask for a depth of sixty; so
+/// deep in the tree only rays are followed that may still be seen (Hall and Greenberg 1983, "A Testbed for
+/// Realistic Image Synthesis").
 #include <cmath>
 
 #include "integrators/integrator.h"
@@ -38,7 +42,10 @@ struct Whitted final : Integrator {
         f.about(
             "Whitted's ray tracer: local light by each material's formula, sharp shadows, mirrors and glass. "
             "Works in linear RGB.");
-        f.field("maxdepth", &Whitted::maxdepth, "how many surfaces a ray may meet, the first one included")
+        f.field(
+             "maxdepth", &Whitted::maxdepth,
+             "how many surfaces a ray may meet, the first one included; behind eight of them only rays are "
+             "followed that count for more than a thousandth")
             .in(0, 100);
         f.field("shadows", &Whitted::shadows, "whether objects block light");
         f.field("ambient", &Whitted::ambient, "light that comes from everywhere, Ia").in(0, 1e30);
@@ -50,34 +57,41 @@ struct Whitted final : Integrator {
     }
     bool centres_single_samples() const override { return true; }
     Task<Spectrum> radiance(Ray ray, PathContext& path) const override {
-        return trace_ray(ray, maxdepth, path);
+        return trace_ray(ray, maxdepth, 1, path);
     }
 
     /// The nearest surface along the ray. For a sphere that is the smaller positive root of a quadratic: see
     /// intersect_ray_sphere in shapes/ball.h.
     static auto intersect_scene(const Ray& ray, PathContext& path) { return path.closest(ray); }
 
-    Task<Spectrum> trace_ray(Ray ray, int depth, PathContext& path) const {
-        if (depth == 0) co_return Spectrum(0);
+    /// weight: what its light is multiplied by on the way to the eye.
+    Task<Spectrum> trace_ray(Ray ray, int depth, Spectrum weight, PathContext& path) const {
+        if (depth == 0 || (maxdepth - depth >= whitted_whole_depth && weight.max() < whitted_least_weight))
+            co_return Spectrum(0);
         std::optional<Hit> hit = co_await intersect_scene(ray, path);
         if (!hit) co_return background(ray, path);
 
         Bsdf* bsdf = hit->material->at(*hit, path.lambda, path.arena);
-        if (!bsdf) co_return co_await trace_ray(hit->spawn(ray.d), depth - 1, path); // only a border of media
+        if (!bsdf) // only a border of media
+            co_return co_await trace_ray(hit->spawn(ray.d), depth - 1, weight, path);
 
         Vec3 n = face_forward(hit->ns, hit->wo);
         Frame frame = hit->shading_frame();
         WhittedTerms k = bsdf->whitted(frame.to_local(hit->wo));
         Spectrum local = co_await compute_lighting(*hit, frame, *bsdf, k.ambient, path);
         Spectrum sum = (Spectrum(1) - k.mirror) * local;
+        // What one branch of the tree needs is free for the next.
+        const Arena::Mark mark = path.arena.mark();
         if (!k.mirror.is_black()) {
             Ray mirrored = hit->spawn(reflect_ray(ray.d, n));
-            sum += k.mirror * co_await trace_ray(mirrored, depth - 1, path);
+            sum += k.mirror * co_await trace_ray(mirrored, depth - 1, weight * k.mirror, path);
+            path.arena.rewind(mark);
         }
         if (!k.refract.is_black()) {
             bool entering = dot(ray.d, hit->ns) < 0;
             Ray refracted = hit->spawn(refract_ray(ray.d, n, entering ? 1 / k.eta : k.eta));
-            sum += k.refract * co_await trace_ray(refracted, depth - 1, path);
+            sum += k.refract * co_await trace_ray(refracted, depth - 1, weight * k.refract, path);
+            path.arena.rewind(mark);
         }
         co_return sum;
     }

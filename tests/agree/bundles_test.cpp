@@ -113,7 +113,7 @@ std::vector<Case> cases() {
     all.push_back({"one", random_balls(6, 1, 1)});
     all.push_back({"nothing", "WorldBegin\n", 5, true, false});
     all.push_back({"dark", "WorldBegin\nMaterial \"phong\" \"float reflectivity\" .5\nShape \"sphere\"\n"});
-    all.push_back({"deep", random_balls(7, 12, 1), 12});
+    all.push_back({"deep", random_balls(7, 12, 1), whitted_whole_depth});
     all.push_back({"flat", random_balls(7, 12, 1), 1});
     all.push_back({"empty", random_balls(7, 12, 1), 0, true, false});
     all.push_back({"without shadows", random_balls(8, 12, 1), 5, false});
@@ -256,6 +256,9 @@ TEST(Bundles, AreForBallsOfOneColorOnly) {
         return built->integrator->bundles(*built->scene) != nullptr;
     };
     EXPECT_TRUE(is_bundled(light + ball));
+    auto built = world_of_balls(start + "WorldBegin\n" + light + ball);
+    EXPECT_TRUE(whitted_bundles(*built->scene, {whitted_whole_depth}));
+    EXPECT_FALSE(whitted_bundles(*built->scene, {whitted_whole_depth + 1}));
     EXPECT_TRUE(is_bundled(light + "Scale -1 2 1\nScale 1 .5 1\n" + ball));
     const std::string checks = "Texture \"t\" \"spectrum\" \"checkerboard\"\n";
     const std::string many = [&] {

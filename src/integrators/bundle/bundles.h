@@ -18,6 +18,11 @@ struct RayBundles {
                           RayCounts& counts) const = 0;
 };
 
+/// So many surfaces deep the Whitted integrator follows all rays; behind them only those whose light counts
+/// for more than whitted_least_weight, which bundles do not know.
+constexpr int whitted_whole_depth = 8;
+constexpr float whitted_least_weight = 1.0f / 1024;
+
 /// What the recursion of the Whitted integrator is given.
 struct WhittedSettings {
     int maxdepth = 5;
@@ -27,7 +32,7 @@ struct WhittedSettings {
 
 /// For scenes as the method's first ones: nothing but a few whole balls that stand still, opaque, with
 /// Phong's surfaces of one colour, lights that shine alike from a point, and no structure that somebody
-/// chose. nullptr for others.
+/// chose; and no deeper than whitted_whole_depth. nullptr for others.
 std::unique_ptr<RayBundles> whitted_bundles(const Scene& scene, const WhittedSettings& settings);
 /// The same by a kernel of a name in bundle_kernel_names().
 std::unique_ptr<RayBundles> whitted_bundles(const Scene& scene, const WhittedSettings& settings,

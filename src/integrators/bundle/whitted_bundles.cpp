@@ -173,7 +173,7 @@ std::unique_ptr<RayBundles> whitted_bundles(const Scene& scene, const WhittedSet
                                             std::string_view kernel) {
     const Object& root = scene.root();
     if (scene.moves() || scene.approximation() || root.structure_is_chosen() || !root.instances().empty() ||
-        root.shapes().size() > most_bundle_balls)
+        root.shapes().size() > most_bundle_balls || settings.maxdepth > whitted_whole_depth)
         return nullptr;
     std::vector<BundleBall> balls;
     for (std::uint32_t i = 0; i < root.shapes().size(); ++i) {
