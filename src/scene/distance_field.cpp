@@ -57,7 +57,7 @@ DistanceField::DistanceField(const std::vector<Corners>& triangles, int cells) {
     }
     lo_ = Vec3d(Vec3(Vec3d(box.lo) - Vec3d(margin * cell_)));
 
-    const MeshDistance mesh(triangles);
+    const MeshDistance mesh(triangles, MeshDistance::Asked::nearest);
     const std::vector<float> distances = measure_bricks(mesh);
     bricks_.resize(distances.size());
     std::vector<std::size_t> near;

@@ -1,6 +1,9 @@
 #include "sdf/mesh_distance.h"
 
+#include <cassert>
+
 #include "accel/accel.h"
+#include "base/threads.h"
 
 namespace alhazen {
 
@@ -83,14 +86,15 @@ TrianglePoint nearest_on_triangle(Vec3d a, Vec3d b, Vec3d c, Vec3d p) {
     return {a + ab * (vb / sum) + ac * (vc / sum), vb / sum, vc / sum};
 }
 
-MeshDistance::MeshDistance(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
+MeshDistance::MeshDistance(std::vector<Corners> triangles, Asked asked) : triangles_(std::move(triangles)) {
     std::erase_if(triangles_,
                   [](const Corners& t) { return !is_finite(t.a) || !is_finite(t.b) || !is_finite(t.c); });
     Soup soup(triangles_);
     tree_ = build_tree(soup, AccelChoice{"sah", "stack", {}});
-    moments_.resize(tree_.nodes.size());
-    // Children stand behind their parents.
-    for (std::size_t i = tree_.nodes.size(); i-- > 0;) measure(static_cast<std::uint32_t>(i));
+    if (asked == Asked::insides) {
+        moments_.resize(tree_.nodes.size());
+        parallel_for(tree_.nodes.size(), 64, [&](std::size_t i) { measure(static_cast<std::uint32_t>(i)); });
+    }
     for (const Corners& t : triangles_)
         for (Vec3 p : {t.a, t.b, t.c}) bounds_.extend(p);
 }
@@ -170,6 +174,7 @@ std::optional<MeshDistance::Nearest> MeshDistance::nearest(Vec3d p, double limit
 
 double MeshDistance::winding_number(Vec3d p) const {
     if (tree_.nodes.empty()) return 0;
+    assert(!moments_.empty());
     std::array<std::uint32_t, Tree::max_depth + 1> stack;
     std::size_t size = 0;
     double sum = 0;

@@ -20,9 +20,10 @@ TrianglePoint nearest_on_triangle(Vec3d a, Vec3d b, Vec3d c, Vec3d p);
 /// Immutable once built; any thread may ask.
 class MeshDistance {
   public:
-    /// Triangles with corners that are not finite are left out. Builds on the threads of the enclosing
-    /// with_threads.
-    explicit MeshDistance(std::vector<Corners> triangles);
+    enum class Asked { nearest, insides };
+    /// Triangles with corners that are not finite are left out. insides: winding numbers are asked for, too.
+    /// Builds on the threads of the enclosing with_threads.
+    explicit MeshDistance(std::vector<Corners> triangles, Asked asked = Asked::insides);
 
     struct Nearest {
         double distance = 0;
