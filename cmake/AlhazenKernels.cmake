@@ -10,8 +10,8 @@ foreach(set plain sse42 avx2 avx512)
     set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/accel/wide/kernel_${set}.cpp PROPERTIES
         SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "-fno-tree-vectorize;-fno-tree-slp-vectorize;${kernel_flags_${set}}")
 endforeach()
-# The rasteriser's, those that follow bundles of rays, and those that march through distances, whose text leaves it to the compiler to put lanes into
-# registers.
+# The rasteriser's, those that follow bundles of rays, and those that march through distances, whose text leaves it to
+# the compiler to put lanes into registers.
 foreach(folder raster integrators/bundle scene/march)
     set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/${folder}/kernel_plain.cpp PROPERTIES
         SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "-Wno-psabi")

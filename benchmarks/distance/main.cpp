@@ -2,6 +2,10 @@
 /// cells, how far the picture is from an exact one with another seed (and how far two exact ones are from
 /// each other, which is the noise), what building the field takes, and how many times as fast the picture is
 /// made; and how many times as fast rays alone are answered, as a path tracer would ask for them.
+#include <array>
+#include <span>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -131,7 +131,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         ->type_name("N");
     command
         .add_option("--in-flight", s.paths_in_flight,
-                    "paths a thread follows at a time (1: each ray alone; default: by the scene's size)")
+                    "paths a thread follows at a time (1: each ray alone; default: by the scene's size and "
+                    "accelerator)")
         ->check(CLI::Range(1, 4096))
         ->type_name("N");
     command

@@ -5,7 +5,7 @@
 /// shadows only from maps.
 ///
 /// A camera with a lens, or one that sees all around, has no projection that keeps lines straight; then rays
-/// find the surfaces, and the shading is the same.
+/// find the surfaces, and the shading is the same, but that they see one part of a mixture each.
 #include <algorithm>
 #include <atomic>
 #include <mutex>

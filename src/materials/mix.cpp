@@ -1,6 +1,6 @@
 /// Two materials sprinkled over one surface: each point shows one of them, chosen by a hash of its position,
 /// so that the mean over a pixel is the mixture (as pbrt-v4, but by the position alone: the same point shows
-/// the same material from every side).
+/// the same material from every side). Who looks but once a pixel asks for all shares.
 #include <bit>
 
 #include <fmt/format.h>

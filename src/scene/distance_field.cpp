@@ -1,5 +1,7 @@
 #include "scene/distance_field.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/threads.h"
@@ -12,6 +14,12 @@ namespace {
 const float brick_radius = 1.5f * std::sqrt(3.0f);
 /// Bricks whose middle is so many cells from everything are far.
 const float far_away = march_near + brick_radius;
+
+// limit is how far it is at most, if nothing was lost by rounding.
+MeshDistance::Nearest nearest(const MeshDistance& mesh, Vec3d p, double limit) {
+    if (auto found = mesh.nearest(p, limit)) return *found;
+    return mesh.nearest(p, static_cast<double>(infinity)).value();
+}
 
 std::uint32_t eighths(double distance) {
     return static_cast<std::uint32_t>(distance * static_cast<double>(march_steps_a_cell));
@@ -56,6 +64,7 @@ DistanceField::DistanceField(const std::vector<Corners>& triangles, int cells) {
         bricks_along_[i] = (n_[i] + side - 1) / side;
     }
     lo_ = Vec3d(Vec3(Vec3d(box.lo) - Vec3d(margin * cell_)));
+    if (!is_finite(lo_)) throw std::runtime_error("the scene is too large");
 
     const MeshDistance mesh(triangles, MeshDistance::Asked::nearest);
     const std::vector<float> distances = measure_bricks(mesh);
@@ -100,7 +109,7 @@ std::vector<float> DistanceField::measure_bricks(const MeshDistance& mesh) const
         double limit = static_cast<double>(infinity);
         for (std::size_t i = row * in_row; i < (row + 1) * in_row; ++i) {
             const Vec3d middle = place(first_sample(i)) + Vec3d(0.5 * (side - 1) * cell_);
-            const double distance = mesh.nearest(middle, limit)->distance;
+            const double distance = nearest(mesh, middle, limit).distance;
             distances[i] = static_cast<float>(distance / cell_);
             limit = (distance + side * cell_) * (1 + 1e-9);
         }
@@ -114,13 +123,13 @@ void DistanceField::fill(std::size_t brick, float distance, const MeshDistance& 
     const Vec3i first = first_sample(brick);
     for (int i = 0; i < static_cast<int>(brick_size); ++i) {
         const Vec3d p = place(first + Vec3i{i & 3, i >> 2 & 3, i >> 4});
-        const auto found = mesh.nearest(p, limit);
+        const MeshDistance::Nearest found = nearest(mesh, p, limit);
         const std::size_t at = bricks_[brick] * brick_size + static_cast<std::size_t>(i);
-        samples_[at] = std::min(eighths(found->distance / cell_), march_steps);
-        triangles_[at] = found->triangle;
+        samples_[at] = std::min(eighths(found.distance / cell_), march_steps);
+        triangles_[at] = found.triangle;
         if (static_cast<float>(samples_[at]) >= march_near * march_steps_a_cell) continue;
-        const Corners& t = triangles[found->triangle];
-        const Vec3d to = (found->at.p - p) * (1 / cell_);
+        const Corners& t = triangles[found.triangle];
+        const Vec3d to = (found.at.p - p) * (1 / cell_);
         Vec3d n = cross(Vec3d(t.b) - Vec3d(t.a), Vec3d(t.c) - Vec3d(t.a));
         if (!(length_squared(n) > 0)) n = to;
         if (!(length_squared(n) > 0)) n = {0, 0, 1};

@@ -14,13 +14,14 @@ namespace alhazen {
 class DistanceField {
   public:
     /// cells along the longest side of all triangles together, whose corners are finite. Builds on the
-    /// threads of the enclosing with_threads. Throws std::runtime_error when the triangles have no extent.
+    /// threads of the enclosing with_threads. Throws std::runtime_error when the triangles have no
+    /// extent, or too much.
     DistanceField(const std::vector<Corners>& triangles, int cells);
 
     /// The first sample's place, and the samples' distance.
     Vec3d lo() const { return lo_; }
     double cell() const { return cell_; }
-    /// The triangle that the sample's plane is of; 0 for samples that are not near any.
+    /// The triangle that is nearest to the sample, whose plane it knows.
     std::uint32_t triangle(std::uint32_t sample) const { return triangles_[sample]; }
     void prefetch_triangle(std::uint32_t sample) const { __builtin_prefetch(&triangles_[sample]); }
     /// Good as long as this.

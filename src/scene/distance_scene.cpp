@@ -1,5 +1,6 @@
 #include "scene/distance_scene.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 
@@ -55,7 +56,9 @@ DistanceScene::DistanceScene(const Object& root, int cells) : kernel_(supported_
 }
 
 template <class Take>
-void DistanceScene::march(std::span<const Ray> rays, float free_cells, const Take& take) const {
+void DistanceScene::march(std::span<const Ray> rays, const Take& take) const {
+    // What rays go to that end somewhere is a surface, too, and is not to be met.
+    constexpr float free_cells = 0.75f;
     if (!field_) return;
     constexpr std::size_t most = 512;
     float t[most];
@@ -71,7 +74,7 @@ void DistanceScene::march(std::span<const Ray> rays, float free_cells, const Tak
 
 void DistanceScene::closest(std::span<const Ray> rays, std::span<Found> found) const {
     for (Found& f : found) f.object = nullptr;
-    march(rays, 0, [&](std::size_t first, std::span<const float> t, std::span<std::uint32_t> samples) {
+    march(rays, [&](std::size_t first, std::span<const float> t, std::span<std::uint32_t> samples) {
         // What each hit needs comes from memory while others are looked at.
         auto for_hits = [&](auto&& look) {
             for (std::size_t i = 0; i < t.size(); ++i)
@@ -90,6 +93,11 @@ void DistanceScene::closest(std::span<const Ray> rays, std::span<Found> found) c
 void DistanceScene::find(const Ray& ray, float t, std::uint32_t triangle, Found& found) const {
     const Corners& c = corners_[triangle];
     const TrianglePoint at = nearest_on_triangle(Vec3d(c.a), Vec3d(c.b), Vec3d(c.c), Vec3d(ray.at(t)));
+    // Whoever goes on from what is met must get further: beside a triangle's end its nearest point may be
+    // where the ray starts.
+    constexpr double least_cells = 0.1;
+    if (!(dot(at.p - Vec3d(ray.o), Vec3d(ray.d)) > least_cells * field_->cell() * length(Vec3d(ray.d))))
+        return;
     const Origin& origin = origins_[triangle];
     found = placed_[origin.placed];
     found.hit.t = t;
@@ -102,10 +110,8 @@ void DistanceScene::find(const Ray& ray, float t, std::uint32_t triangle, Found&
 }
 
 void DistanceScene::blocked(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-    // What the ray goes to is a surface, too, and is not to be met.
-    constexpr float free_cells = 0.75f;
     std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
-    march(rays, free_cells, [&](std::size_t first, std::span<const float> t, std::span<std::uint32_t>) {
+    march(rays, [&](std::size_t first, std::span<const float> t, std::span<std::uint32_t>) {
         for (std::size_t i = 0; i < t.size(); ++i) blocked[first + i] = t[i] < infinity;
     });
 }

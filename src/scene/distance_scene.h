@@ -1,6 +1,7 @@
 /// A whole scene as one global distance field, as game engines keep one for indirect light (Wright et al.
 /// 2022, "Lumen"): cheap to ask, coarse, and approximate. Details smaller than a cell are lost, and contacts
-/// are blurred by about a cell.
+/// are blurred by about a cell: nothing is met within half a cell from where a ray starts, and before where
+/// it is to end.
 #pragma once
 
 #include <optional>
@@ -28,7 +29,9 @@ class DistanceScene {
     /// Which kernel marches: one of supported_march_kernels(), the best unless told otherwise.
     void set_kernel(const MarchKernel& kernel) { kernel_ = &kernel; }
 
-    std::size_t bytes() const { return field_ ? field_->bytes() : 0; }
+    std::size_t bytes() const {
+        return (field_ ? field_->bytes() : 0) + corners_.size() * (sizeof(Corners) + sizeof(Origin));
+    }
 
   private:
     /// Where a triangle of the field is in the scene.
@@ -39,9 +42,10 @@ class DistanceScene {
 
     struct Collector;
     /// Calls take(number of the first, each one's t, each one's sample of the field) for some rays after the
-    /// others; t is infinity where nothing is met before their tmax less so many cells.
+    /// others; t is infinity where nothing is met.
     template <class Take>
-    void march(std::span<const Ray> rays, float free_cells, const Take& take) const;
+    void march(std::span<const Ray> rays, const Take& take) const;
+    // Leaves found as it is where the ray would not get further.
     void find(const Ray& ray, float t, std::uint32_t triangle, Found& found) const;
 
     std::vector<Found> placed_; ///< object and way to it, once an object that is placed

@@ -127,6 +127,19 @@ TEST(DistanceScenes, ThreadsDoNotChangeABit) {
     EXPECT_EQ(std::memcmp(va.data(), vb.data(), va.size_bytes()), 0);
 }
 
+// Rays to lamps go through media by another way; lamps must not block their own light there.
+TEST(DistanceScenes, LampsAreSeenThroughMedia) {
+    std::string text = scene("\"volpath\" \"integer maxdepth\" 2", field);
+    const Image clear = render_text(text).image;
+    const std::string camera = "LookAt";
+    text.insert(text.find(camera), "MakeNamedMedium \"thin\" \"string type\" \"homogeneous\" "
+                                   "\"rgb sigma_a\" [ 1e-6 1e-6 1e-6 ] \"rgb sigma_s\" [ 1e-6 1e-6 1e-6 ]\n"
+                                   "MediumInterface \"\" \"thin\"\n");
+    const Image thin = render_text(text).image;
+    EXPECT_GT(mean_of(clear, 1), 0.05);
+    EXPECT_NEAR(mean_of(thin, 1) / mean_of(clear, 1), 1, 0.01);
+}
+
 // Marched in company or alone.
 TEST(DistanceScenes, PathsInFlightDoNotChangeABit) {
     RenderSettings alone, many;

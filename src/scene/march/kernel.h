@@ -11,7 +11,8 @@ namespace alhazen {
 /// Samples nearer than so many cells to a surface know its plane. What is in a sample's cell is nearer than
 /// half of the cell's diagonal.
 constexpr float march_near = 1;
-/// Cells, from a ray's start, within which it meets nothing: it starts on a surface, mostly.
+/// Cells, from where a ray starts or comes into the field, within which it meets nothing: mostly it starts on
+/// a surface, and nothing stands at the field's sides.
 constexpr float march_free = 0.6f;
 
 /// A sample of the field: its distance from the nearest triangle in eighths of a cell, rounded down, and, if

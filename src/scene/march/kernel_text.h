@@ -16,6 +16,8 @@ namespace {
 constexpr int eights = 4;
 /// How far into the next cell a step to a cell's end goes.
 constexpr float beyond = 0.01f;
+/// How far off a plane's number may put it.
+constexpr float rough = 0.02f;
 /// How far beyond a sample's cell planes count whose triangles are beside the sample, so that few rays slip
 /// between them. Where triangles end before, their planes are less sure.
 constexpr float ahead = 0.15f;
@@ -23,7 +25,7 @@ constexpr float ahead = 0.15f;
 /// Eight rays underway.
 struct alignas(64) Eight {
     float o[3][lanes], d[3][lanes], inverse[3][lanes]; ///< inverse of the direction
-    float s[lanes], end[lanes], t_a_cell[lanes];
+    float s[lanes], end[lanes], entry[lanes], t_a_cell[lanes];
     std::int32_t ray[lanes];          ///< its number; less than 0: none
     std::uint32_t brick[lanes];       ///< what is known of where it is
     std::uint32_t sample[lanes];      ///< the nearest, or 0 in far bricks
@@ -70,8 +72,9 @@ class March {
             eight.d[axis][lane] = start.d[axis];
             eight.inverse[axis][lane] = start.inverse[axis];
         }
-        eight.s[lane] = start.begin;
+        eight.s[lane] = march_start;
         eight.end[lane] = start.end;
+        eight.entry[lane] = start.entry;
         eight.t_a_cell[lane] = start.t_a_cell;
         return true;
     }
@@ -120,7 +123,7 @@ class March {
         const Plane plane = plane_of(word);
         const Floats to = (plane.height - dot(plane.n, offset)) / dot(plane.n, d);
         const Vector3 met = offset + d * to;
-        const Floats empty = distance * distance;
+        const Floats radius = larger(distance - rough, Floats{}), empty = radius * radius;
         const Ints is_beside = plane.height * plane.height >= empty * dot(plane.n, plane.n);
         const Ints is_met = (distance < alhazen::march_near) & (to >= -beyond) &
                             (to < (is_beside ? exit + ahead : exit)) & (s + to > alhazen::march_free) &
@@ -172,7 +175,7 @@ class March {
     void finish(const Eight& eight, int lane) const {
         const std::int32_t ray = eight.ray[lane];
         const bool is_hit = eight.is_met[lane] && eight.s[lane] < eight.end[lane];
-        rays_.t[ray] = is_hit ? eight.s[lane] * eight.t_a_cell[lane] : __builtin_inff();
+        rays_.t[ray] = is_hit ? (eight.entry[lane] + eight.s[lane]) * eight.t_a_cell[lane] : __builtin_inff();
         rays_.sample[ray] = eight.sample[lane];
     }
 

@@ -33,10 +33,16 @@ ALHAZEN_INLINE Ints clamp(Ints v, std::int32_t last) {
     return v < last ? v : Ints{} + last;
 }
 
-/// A ray in cells from the first sample; its direction is unit length.
+/// Cells from where it starts, or comes into the field, at which a march begins: nothing would be met before.
+constexpr float march_start = 0.5f;
+static_assert(march_start < alhazen::march_free);
+
+/// A ray from where it comes into the field; in cells, from the first sample. Its direction is unit length.
 struct Start {
     std::int32_t ray; ///< its number; less than 0: there are no more
-    float o[3], d[3], inverse[3], begin, end, t_a_cell;
+    float o[3], d[3], inverse[3];
+    float entry; ///< how far the ray came before
+    float end, t_a_cell;
 };
 
 /// The rays one after the other, without those that do not come through the field.
@@ -49,7 +55,7 @@ class Starts {
             if (at_ == rays_.count) return {-1, {}, {}, {}, 0, 0, 0};
             const std::uint32_t lane = at_ % lanes;
             if (lane == 0) prepare();
-            if (begin_[lane] < end_[lane]) break;
+            if (march_start < end_[lane]) break;
             rays_.t[at_] = __builtin_inff();
         }
         const std::uint32_t lane = at_ % lanes;
@@ -57,7 +63,7 @@ class Starts {
                 {o_[0][lane], o_[1][lane], o_[2][lane]},
                 {d_[0][lane], d_[1][lane], d_[2][lane]},
                 {inverse_[0][lane], inverse_[1][lane], inverse_[2][lane]},
-                begin_[lane],
+                entry_[lane],
                 end_[lane],
                 t_a_cell_[lane]};
     }
@@ -65,7 +71,7 @@ class Starts {
   private:
     // Of eight rays.
     void prepare() {
-        constexpr float longest = 1e9f, least_inverse = 1e-20f;
+        constexpr float longest = 1e9f, least_part = 1e-5f, least_inverse = 1e-20f;
         Vector3 o{}, d{};
         Floats tmax{};
         for (std::uint32_t lane = 0; lane < lanes && at_ + lane < rays_.count; ++lane) {
@@ -74,40 +80,47 @@ class Starts {
             d.x[lane] = ray[3], d.y[lane] = ray[4], d.z[lane] = ray[5];
             tmax[lane] = ray[6];
         }
-        // Squares of what is too large or small for them are avoided; what is not finite makes NaNs, which
-        // are in no interval.
+        // Squares of what is too large or small for them are avoided; what is not finite makes NaNs. Origins
+        // may be far away, so that up to the field double precision is needed.
         const Floats size = larger(larger(absolute(d.x), absolute(d.y)), absolute(d.z));
-        d = {d.x / size, d.y / size, d.z / size};
-        const Floats length = square_root(dot(d, d));
-        const Floats cells_a_t = size * length / field_.cell;
-        Floats begin{}, end = tmax * cells_a_t;
+        const Vector3d unit = normalized(widen(Vector3{d.x / size, d.y / size, d.z / size}));
+        const Floats cells_a_t = size * length_of({d.x / size, d.y / size, d.z / size}) / field_.cell;
+        const Floats t_a_cell = 1 / cells_a_t;
+        const Doubles from[3] = {in_cells(o.x, 0), in_cells(o.y, 1), in_cells(o.z, 2)},
+                      along[3] = {unit.x, unit.y, unit.z};
+        Floats entry{}, end = tmax * cells_a_t;
         end = end >= longest ? Floats{} + longest : end - rays_.free_cells;
-        end = tmax == tmax ? end : Floats{};
-        const Floats from[3] = {o.x, o.y, o.z}, along[3] = {d.x, d.y, d.z};
+        Ints is_ray = (tmax == tmax) & (t_a_cell > 0) & (t_a_cell < infinite) & (cells_a_t < infinite);
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats at = (from[axis] - field_.lo[axis]) / field_.cell, w = along[axis] / length + 0.0f;
-            // Along the sides of cells it never comes to them; no direction is -0, as if it came from there.
+            const Floats at = narrow(from[axis]);
+            // What goes along the sides of cells, or nearly, never comes to them, from either side.
+            Floats w = narrow(along[axis]);
+            w = absolute(w) < least_part ? Floats{} : w;
             const Floats inverse = 1 / with_sign(larger(absolute(w), Floats{} + least_inverse), w);
             const Floats a = (0 - at) * inverse, b = (static_cast<float>(field_.last[axis]) - at) * inverse;
-            begin = larger(smaller(a, b), begin);
+            entry = larger(smaller(a, b), entry);
             end = smaller(end, larger(a, b));
-            end = at - at == 0 && w - w == 0 ? end : Floats{};
-            store(o_[axis], at);
+            is_ray &= (at - at == 0) & (w - w == 0);
             store(d_[axis], w);
             store(inverse_[axis], inverse);
         }
-        // From surfaces they start a little way off: nothing would be met before.
-        constexpr float off = 0.5f;
-        static_assert(off < alhazen::march_free);
-        store(begin_, larger(begin, Floats{} + off));
-        store(end_, end);
-        store(t_a_cell_, 1 / cells_a_t);
+        for (int axis = 0; axis < 3; ++axis)
+            store(o_[axis], narrow(from[axis] + widen(floats(d_[axis])) * widen(entry)));
+        store(entry_, entry);
+        store(end_, is_ray ? end - entry : Floats{});
+        store(t_a_cell_, t_a_cell);
     }
+
+    ALHAZEN_INLINE Doubles in_cells(Floats place, int axis) const {
+        return (widen(place) - static_cast<double>(field_.lo[axis])) / static_cast<double>(field_.cell);
+    }
+    ALHAZEN_INLINE static Vector3d normalized(const Vector3d& v) { return v * (1 / square_root(dot(v, v))); }
+    ALHAZEN_INLINE static Floats length_of(const Vector3& v) { return square_root(dot(v, v)); }
 
     const alhazen::MarchField& field_;
     const alhazen::MarchRays& rays_;
     std::uint32_t at_ = 0; ///< the next ray
-    alignas(32) float o_[3][lanes], d_[3][lanes], inverse_[3][lanes], begin_[lanes], end_[lanes],
+    alignas(32) float o_[3][lanes], d_[3][lanes], inverse_[3][lanes], entry_[lanes], end_[lanes],
         t_a_cell_[lanes];
 };
 

@@ -44,9 +44,12 @@ std::vector<Corners> some_triangles(int count, float size) {
     return triangles;
 }
 
-// A square from -1 to 1 at that height, turned from the axes.
-std::vector<Corners> square(float y) {
-    auto turned = [&](float x, float z) { return Vec3{0.8f * x - 0.6f * z, y, 0.6f * x + 0.8f * z}; };
+// A square from -1 to 1, turned from the axes, on the plane y = at + slope x.
+std::vector<Corners> square(float at, float slope = 0) {
+    auto turned = [&](float x, float z) {
+        const float across = 0.8f * x - 0.6f * z;
+        return Vec3{across, at + slope * across, 0.6f * x + 0.8f * z};
+    };
     const Vec3 a = turned(-1, -1), b = turned(1, -1), c = turned(1, 1), d = turned(-1, 1);
     return {{a, b, c}, {a, c, d}};
 }
@@ -112,32 +115,61 @@ TEST(DistanceField, WhatIsMetIsThere) {
 }
 
 // The way past what is not near is free, however far it is: nothing is met in front of a wall, and the wall
-// where it is.
+// where it is, wherever that is among the samples.
 TEST(DistanceField, AWallIsMetWhereItIs) {
+    for (float below : {0.0f, -1.237f, -1.2456f, -1.3333f, -1.3421f})
+        for (float slope : {0.0f, 0.2f, -0.73f}) {
+            SCOPED_TRACE(std::to_string(below) + " " + std::to_string(slope));
+            std::vector<Corners> triangles = square(0, slope);
+            for (const Corners& c : square(3)) triangles.push_back(c); // the field is deep
+            if (below < 0) triangles.push_back({{3, below, 3}, {3.1f, below, 3}, {3, below, 3.1f}});
+            const DistanceField field(triangles, 100);
+            const float along_normal = 1 / std::sqrt(1 + slope * slope);
+            Rng rng(3);
+            std::vector<Ray> rays;
+            std::vector<float> expected, cosines;
+            while (rays.size() < 2000) {
+                const Vec3 from = random_point(rng, 0.3f) + Vec3{0, 1.6f, 0};
+                Vec3 to{random_point(rng, 0.6f).x, 0, random_point(rng, 0.6f).z};
+                to.y = slope * to.x;
+                rays.push_back({from, normalize(to - from)});
+                expected.push_back(length(to - from));
+                cosines.push_back(std::abs(rays.back().d.y - slope * rays.back().d.x) * along_normal);
+            }
+            const Marched met = march(field, rays);
+            const auto cell = static_cast<float>(field.cell());
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                // The plane is known to a fiftieth of a cell.
+                ASSERT_NEAR(met.t[i] * cosines[i], expected[i] * cosines[i], 0.02f * cell) << i;
+                EXPECT_LT(field.triangle(met.sample[i]), 2u);
+            }
+            // A shade before the wall they end, and at it.
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                rays[i].tmax = expected[i] - 0.1f * cell / cosines[i];
+            for (float t : march(field, rays).t) ASSERT_EQ(t, infinity);
+            for (std::size_t i = 0; i < rays.size(); ++i) rays[i].tmax = expected[i] + 0.05f * cell;
+            for (float t : march(field, rays, *supported_march_kernels().front(), 0.2f).t)
+                ASSERT_EQ(t, infinity);
+        }
+}
+
+// From a million cells away, beside walls and along the sides of cells, where steps are shortest.
+TEST(DistanceField, RaysFromAfarArriveAndEnd) {
     std::vector<Corners> triangles = square(0);
-    for (const Corners& c : square(3)) triangles.push_back(c); // the field is deep
-    const DistanceField field(triangles, 100);
-    Rng rng(3);
-    std::vector<Ray> rays;
-    std::vector<float> expected;
-    while (rays.size() < 4000) {
-        const Vec3 from = random_point(rng, 0.4f) + Vec3{0, 1.5f, 0};
-        const Vec3 to{random_point(rng, 0.6f).x, 0, random_point(rng, 0.6f).z};
-        rays.push_back({from, normalize(to - from)});
-        expected.push_back(length(to - from));
+    triangles.push_back({{-1, -1, 0.3f}, {-1, 1, 0.3f}, {-0.99f, 0, 0.3f}});
+    const DistanceField field(triangles, 64);
+    for (float far : {1e2f, 1e4f, 3e4f, 1e6f}) {
+        std::vector<Ray> rays;
+        for (float y : {0.0f, 1e-3f, 0.01f, 0.02f, 0.5f})
+            for (float z : {0.0f, 0.1f, 0.25f}) {
+                rays.push_back({{far, y, z}, {-1, 0, 0}});
+                rays.push_back({{far, y, z}, {-1, -1e-9f, -1e-7f}});
+                rays.push_back({{-far, y, z}, {1, 0, 3e-6f}});
+            }
+        for (float t : march(field, rays).t) EXPECT_TRUE(t == infinity || std::abs(t - far) < 2) << t;
+        const float there = march(field, {Ray{{0.1f, far, 0.2f}, {0, -1, 0}}}).t[0];
+        EXPECT_NEAR(there, far, 1e-3f + far * 1e-6f);
     }
-    const Marched met = march(field, rays);
-    const auto cell = static_cast<float>(field.cell());
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        // The plane is known to a hundredth of a cell.
-        ASSERT_NEAR(met.t[i] * -rays[i].d.y, expected[i] * -rays[i].d.y, 0.02f * cell) << i;
-        EXPECT_LT(field.triangle(met.sample[i]), 2u);
-    }
-    // A shade before the wall they end, and at it.
-    for (std::size_t i = 0; i < rays.size(); ++i) rays[i].tmax = expected[i] - 0.1f * cell / -rays[i].d.y;
-    for (float t : march(field, rays).t) ASSERT_EQ(t, infinity);
-    for (std::size_t i = 0; i < rays.size(); ++i) rays[i].tmax = expected[i] + 0.1f * cell;
-    for (float t : march(field, rays, *supported_march_kernels().front(), 0.2f).t) ASSERT_EQ(t, infinity);
 }
 
 // Grazing ones too, to both sides.
