@@ -127,14 +127,17 @@ class MltWork final : public PictureWork {
 
     PictureCounts run(int pass, const std::function<void(double)>& progress) override {
         PictureCounts counts;
-        if (pass == 0) counts += bootstrap();
+        // Of this pass's work; a path is about as much as a mutation.
+        const double tried = pass == 0 ? static_cast<double>(bootstrap_paths()) : 0,
+                     bootstrapped = tried / (tried + static_cast<double>(mutations_) / passes());
+        if (pass == 0) counts += bootstrap([&](double done) { progress(done * bootstrapped); });
         std::atomic<int> done{0};
         std::mutex mutex;
         const std::size_t group = group_size(chains_.size());
         parallel_ranges(chains_.size(), group, [&](std::size_t begin, std::size_t end) {
             const PictureCounts part = run_chains(begin, end, pass);
             const int chains = done += static_cast<int>(end - begin);
-            progress(static_cast<double>(chains) / static_cast<double>(chains_.size()));
+            progress(bootstrapped + (1 - bootstrapped) * chains / static_cast<double>(chains_.size()));
             std::scoped_lock lock(mutex);
             counts += part;
         });
@@ -155,14 +158,20 @@ class MltWork final : public PictureWork {
         return std::clamp(all / groups, std::size_t{1}, static_cast<std::size_t>(picture_.paths_in_flight));
     }
 
+    std::size_t bootstrap_paths() const {
+        return static_cast<std::size_t>(options_.bootstrapsamples) *
+               static_cast<std::size_t>(options_.maxdepth + 1);
+    }
     /// Independent paths of all lengths; chains begin where they are bright.
-    PictureCounts bootstrap() {
-        const auto lengths = static_cast<std::size_t>(options_.maxdepth + 1);
-        std::vector<float> weights(static_cast<std::size_t>(options_.bootstrapsamples) * lengths);
+    PictureCounts bootstrap(const std::function<void(double)>& progress) {
+        std::vector<float> weights(bootstrap_paths());
         PictureCounts counts;
+        std::atomic<std::size_t> done{0};
         std::mutex mutex;
         parallel_ranges(weights.size(), 4096, [&](std::size_t begin, std::size_t end) {
             const RayCounts rays = weigh(weights, begin, end);
+            const std::size_t paths = done += end - begin;
+            progress(static_cast<double>(paths) / static_cast<double>(weights.size()));
             std::scoped_lock lock(mutex);
             counts.rays += rays;
         });
