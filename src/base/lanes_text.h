@@ -80,6 +80,34 @@ ALHAZEN_INLINE Floats absolute(Floats v) {
 ALHAZEN_INLINE Doubles absolute(Doubles v) {
     return __builtin_bit_cast(Doubles, __builtin_bit_cast(Longs, v) & 0x7fffffffffffffffLL);
 }
+// Eight numbers in memory.
+ALHAZEN_INLINE Floats floats(const float* numbers) {
+    Floats v;
+    __builtin_memcpy(&v, numbers, sizeof v);
+    return v;
+}
+template <class Int>
+ALHAZEN_INLINE Ints ints(const Int* numbers) {
+    Ints v;
+    __builtin_memcpy(&v, numbers, sizeof v);
+    return v;
+}
+template <class Number, class V>
+ALHAZEN_INLINE void store(Number* numbers, V v) {
+    static_assert(sizeof(Number) * lanes == sizeof v);
+    __builtin_memcpy(numbers, &v, sizeof v);
+}
+ALHAZEN_INLINE Floats smaller(Floats a, Floats b) {
+    return a < b ? a : b;
+}
+ALHAZEN_INLINE Floats larger(Floats a, Floats b) {
+    return a > b ? a : b;
+}
+ALHAZEN_INLINE Ints clamp(Ints v, std::int32_t last) {
+    v = v > 0 ? v : Ints{};
+    return v < last ? v : Ints{} + last;
+}
+
 /// a b + c, rounded once or twice: for what is known roughly only.
 ALHAZEN_INLINE Floats fused(Floats a, Floats b, Floats c) {
 #if defined(__FMA__)

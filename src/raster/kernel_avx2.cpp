@@ -5,17 +5,15 @@
 
 #if defined(__AVX2__)
 
+#include "base/processor.h"
 #include "raster/cull_text.h"
 #include "raster/kernel_text.h"
 #include "raster/points_text.h"
 #include "raster/project_text.h"
 
 const alhazen::RasterKernel* alhazen::raster_kernel_avx2() {
-    static constexpr RasterKernel kernel{
-        "avx2",          [] { return static_cast<bool>(__builtin_cpu_supports("avx2")); },
-        &draw_batch,     &project_points,
-        &cull_triangles, &place_points,
-        &light_points};
+    static constexpr RasterKernel kernel{"avx2",          &processor_has_avx2, &draw_batch,  &project_points,
+                                         &cull_triangles, &place_points,       &light_points};
     return &kernel;
 }
 

@@ -5,23 +5,15 @@
 
 #if defined(__AVX512F__)
 
+#include "base/processor.h"
 #include "raster/cull_text.h"
 #include "raster/kernel_text.h"
 #include "raster/points_text.h"
 #include "raster/project_text.h"
 
 const alhazen::RasterKernel* alhazen::raster_kernel_avx512() {
-    static constexpr RasterKernel kernel{"avx512",
-                                         [] {
-                                             return __builtin_cpu_supports("avx512f") &&
-                                                    __builtin_cpu_supports("avx512vl") &&
-                                                    __builtin_cpu_supports("avx512dq") &&
-                                                    __builtin_cpu_supports("avx512bw");
-                                         },
-                                         &draw_batch,
-                                         &project_points,
-                                         &cull_triangles,
-                                         &place_points,
+    static constexpr RasterKernel kernel{"avx512",        &processor_has_avx512, &draw_batch,
+                                         &project_points, &cull_triangles,       &place_points,
                                          &light_points};
     return &kernel;
 }

@@ -46,14 +46,12 @@ struct SdfAccelerator final : Accelerator {
     int resolution = usual_distance_field;
 
     static void describe(Fields<SdfAccelerator>& f) {
-        f.about(
-            "Approximate: rays from the camera are traced exactly, all others (shadows, bounces, ambient "
-            "occlusion) through one distance field of the whole scene. Shadows lose details and contacts "
-            "that are smaller than a cell, and reflections show the field's coarse shapes. Nothing is "
-            "met within half a cell of where a ray starts. To see light as game engines compute it: in large "
-            "scenes shadows and ambient occlusion are sooner there, other pictures take as long. Shapes that "
-            "are no triangles are an "
-            "error.");
+        f.about("Approximate: rays from the camera are traced exactly, all others (shadows, bounces, ambient "
+                "occlusion) through one distance field of the whole scene. Shadows lose details and contacts "
+                "that are smaller than a cell, and reflections show the field's coarse shapes. Nothing is "
+                "met within half a cell of where a ray starts. To compare with, and to see light as "
+                "game engines compute it; pictures take about as long. Shapes that are no triangles are an "
+                "error.");
         f.field("resolution", &SdfAccelerator::resolution, "cells along the longest side of the scene")
             .in(8, 1024);
         describe_common(f);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/processor.h"
+
 namespace alhazen {
 
 namespace {
@@ -118,11 +120,7 @@ ALHAZEN_AVX2 bool any_of_four(const BallList& balls, const Ray& ray) {
 } // namespace
 
 int BallList::most_lanes() {
-#ifdef __x86_64__
-    return __builtin_cpu_supports("avx2") ? 4 : 2;
-#else
-    return 2;
-#endif
+    return processor_has_avx2() ? 4 : 2;
 }
 
 BallList::BallList(std::vector<Numbered> balls, int lanes) : takes_four_(lanes == 4) {

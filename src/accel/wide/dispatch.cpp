@@ -1,17 +1,12 @@
 #include "accel/wide/dispatch.h"
 
-#include <vector>
+#include "base/supported_kernels.h"
 
 namespace alhazen {
 
 std::span<const WideKernels* const> supported_wide_kernels() {
-    static const std::vector<const WideKernels*> supported = [] {
-        std::vector<const WideKernels*> list;
-        for (const WideKernels* k :
-             {wide_kernels_avx512(), wide_kernels_avx2(), wide_kernels_sse42(), wide_kernels_plain()})
-            if (k && k->is_supported()) list.push_back(k);
-        return list;
-    }();
+    static const std::vector<const WideKernels*> supported = supported_among(
+        {wide_kernels_avx512(), wide_kernels_avx2(), wide_kernels_sse42(), wide_kernels_plain()});
     return supported;
 }
 

@@ -4,13 +4,12 @@
 #if defined(__AVX2__) && defined(__FMA__)
 
 #include "accel/wide/lanes_avx2.h"
+#include "base/processor.h"
 
 #include "accel/wide/kernel_text.h"
 
 const alhazen::WideKernels* alhazen::wide_kernels_avx2() {
-    static constexpr WideKernels kernels = make_kernels("avx2", [] {
-        return static_cast<bool>(__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
-    });
+    static constexpr WideKernels kernels = make_kernels("avx2", &alhazen::processor_has_avx2);
     return &kernels;
 }
 

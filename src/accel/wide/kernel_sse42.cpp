@@ -4,12 +4,12 @@
 #if defined(__SSE4_2__)
 
 #include "accel/wide/lanes_sse42.h"
+#include "base/processor.h"
 
 #include "accel/wide/kernel_text.h"
 
 const alhazen::WideKernels* alhazen::wide_kernels_sse42() {
-    static constexpr WideKernels kernels =
-        make_kernels("sse42", [] { return static_cast<bool>(__builtin_cpu_supports("sse4.2")); });
+    static constexpr WideKernels kernels = make_kernels("sse42", &alhazen::processor_has_sse42);
     return &kernels;
 }
 

@@ -3,12 +3,11 @@
 
 #if defined(__AVX2__)
 
+#include "base/processor.h"
 #include "integrators/bundle/kernel_text.h"
 
 const alhazen::BundleKernel* alhazen::bundle_kernel_avx2() {
-    static constexpr BundleKernel kernel{
-        "avx2", [] { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); },
-        &trace_bundle};
+    static constexpr BundleKernel kernel{"avx2", &processor_has_avx2, &trace_bundle};
     return &kernel;
 }
 

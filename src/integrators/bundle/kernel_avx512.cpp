@@ -3,18 +3,11 @@
 
 #if defined(__AVX512F__)
 
+#include "base/processor.h"
 #include "integrators/bundle/kernel_text.h"
 
 const alhazen::BundleKernel* alhazen::bundle_kernel_avx512() {
-    static constexpr BundleKernel kernel{"avx512",
-                                         [] {
-                                             return __builtin_cpu_supports("avx512f") &&
-                                                    __builtin_cpu_supports("avx512vl") &&
-                                                    __builtin_cpu_supports("avx512dq") &&
-                                                    __builtin_cpu_supports("avx512bw") &&
-                                                    __builtin_cpu_supports("fma");
-                                         },
-                                         &trace_bundle};
+    static constexpr BundleKernel kernel{"avx512", &processor_has_avx512, &trace_bundle};
     return &kernel;
 }
 

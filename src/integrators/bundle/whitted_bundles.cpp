@@ -2,6 +2,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/supported_kernels.h"
 #include "integrators/bundle/bundles.h"
 #include "integrators/bundle/kernel.h"
 
@@ -10,10 +11,7 @@ namespace alhazen {
 namespace {
 
 std::vector<const BundleKernel*> supported_kernels() {
-    std::vector<const BundleKernel*> supported;
-    for (const BundleKernel* k : {bundle_kernel_avx512(), bundle_kernel_avx2(), bundle_kernel_plain()})
-        if (k && k->is_supported()) supported.push_back(k);
-    return supported;
+    return supported_among({bundle_kernel_avx512(), bundle_kernel_avx2(), bundle_kernel_plain()});
 }
 
 void store(float (&to)[bundle_colors], Spectrum s) {

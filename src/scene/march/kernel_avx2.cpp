@@ -3,11 +3,11 @@
 
 #if defined(__AVX2__)
 
+#include "base/processor.h"
 #include "scene/march/kernel_text.h"
 
 const alhazen::MarchKernel* alhazen::march_kernel_avx2() {
-    static constexpr MarchKernel kernel{
-        "avx2", [] { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }, &march};
+    static constexpr MarchKernel kernel{"avx2", &processor_has_avx2, &march};
     return &kernel;
 }
 

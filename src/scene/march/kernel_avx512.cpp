@@ -3,18 +3,11 @@
 
 #if defined(__AVX512F__)
 
+#include "base/processor.h"
 #include "scene/march/kernel_text.h"
 
 const alhazen::MarchKernel* alhazen::march_kernel_avx512() {
-    static constexpr MarchKernel kernel{"avx512",
-                                        [] {
-                                            return __builtin_cpu_supports("avx512f") &&
-                                                   __builtin_cpu_supports("avx512vl") &&
-                                                   __builtin_cpu_supports("avx512dq") &&
-                                                   __builtin_cpu_supports("avx512bw") &&
-                                                   __builtin_cpu_supports("fma");
-                                        },
-                                        &march};
+    static constexpr MarchKernel kernel{"avx512", &processor_has_avx512, &march};
     return &kernel;
 }
 

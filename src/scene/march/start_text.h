@@ -6,33 +6,6 @@
 
 namespace {
 
-ALHAZEN_INLINE Floats floats(const float* numbers) {
-    Floats v;
-    __builtin_memcpy(&v, numbers, sizeof v);
-    return v;
-}
-template <class Int>
-ALHAZEN_INLINE Ints ints(const Int* numbers) {
-    Ints v;
-    __builtin_memcpy(&v, numbers, sizeof v);
-    return v;
-}
-template <class Number, class V>
-ALHAZEN_INLINE void store(Number* numbers, V v) {
-    static_assert(sizeof(Number) == 4 && sizeof v == 32);
-    __builtin_memcpy(numbers, &v, sizeof v);
-}
-ALHAZEN_INLINE Floats smaller(Floats a, Floats b) {
-    return a < b ? a : b;
-}
-ALHAZEN_INLINE Floats larger(Floats a, Floats b) {
-    return a > b ? a : b;
-}
-ALHAZEN_INLINE Ints clamp(Ints v, std::int32_t last) {
-    v = v > 0 ? v : Ints{};
-    return v < last ? v : Ints{} + last;
-}
-
 /// Cells from where it starts, or comes into the field, at which a march begins: nothing would be met before.
 constexpr float march_start = 0.5f;
 static_assert(march_start < alhazen::march_free);
@@ -83,8 +56,10 @@ class Starts {
         // Squares of what is too large or small for them are avoided; what is not finite makes NaNs. Origins
         // may be far away, so that up to the field double precision is needed.
         const Floats size = larger(larger(absolute(d.x), absolute(d.y)), absolute(d.z));
-        const Vector3d unit = normalized(widen(Vector3{d.x / size, d.y / size, d.z / size}));
-        const Floats cells_a_t = size * length_of({d.x / size, d.y / size, d.z / size}) / field_.cell;
+        const Vector3d scaled = widen(Vector3{d.x / size, d.y / size, d.z / size});
+        const Doubles length = square_root(dot(scaled, scaled));
+        const Vector3d unit = scaled * (1 / length);
+        const Floats cells_a_t = size * narrow(length) / field_.cell;
         const Floats t_a_cell = 1 / cells_a_t;
         const Doubles from[3] = {in_cells(o.x, 0), in_cells(o.y, 1), in_cells(o.z, 2)},
                       along[3] = {unit.x, unit.y, unit.z};
@@ -112,13 +87,11 @@ class Starts {
     }
 
     ALHAZEN_INLINE Doubles in_cells(Floats place, int axis) const {
-        return (widen(place) - static_cast<double>(field_.lo[axis])) / static_cast<double>(field_.cell);
+        return (widen(place) - static_cast<double>(field_.lo[axis])) * cells_a_unit_;
     }
-    ALHAZEN_INLINE static Vector3d normalized(const Vector3d& v) { return v * (1 / square_root(dot(v, v))); }
-    ALHAZEN_INLINE static Floats length_of(const Vector3& v) { return square_root(dot(v, v)); }
-
     const alhazen::MarchField& field_;
     const alhazen::MarchRays& rays_;
+    const double cells_a_unit_ = 1 / static_cast<double>(field_.cell);
     std::uint32_t at_ = 0; ///< the next ray
     alignas(32) float o_[3][lanes], d_[3][lanes], inverse_[3][lanes], entry_[lanes], end_[lanes],
         t_a_cell_[lanes];
